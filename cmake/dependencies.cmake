@@ -1,0 +1,10 @@
+# Every library the project stands on; thirdparty/README.md says which, why and under which licence.
+find_package(Threads REQUIRED)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(glm REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(tl-expected REQUIRED)
+find_package(meshoptimizer REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(GTest REQUIRED)

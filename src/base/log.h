@@ -1,0 +1,31 @@
+// What the program tells the user while it works. Warnings and progress go to stderr, so stdout stays machine-readable.
+#pragma once
+#include <fmt/format.h>
+
+#include <string>
+
+namespace tessera
+{
+
+enum class LogLevel
+{
+	Quiet,   // warnings only
+	Normal,  // progress and results
+};
+
+void setLogLevel(LogLevel level);
+void logLine(LogLevel level, const std::string& text);
+
+template <typename... Args>
+void logInfo(fmt::format_string<Args...> format, Args&&... args)
+{
+	logLine(LogLevel::Normal, fmt::format(format, std::forward<Args>(args)...));
+}
+
+template <typename... Args>
+void logWarning(fmt::format_string<Args...> format, Args&&... args)
+{
+	logLine(LogLevel::Quiet, "warning: " + fmt::format(format, std::forward<Args>(args)...));
+}
+
+}  // namespace tessera
