@@ -1,10 +1,28 @@
 # Every library the project stands on; thirdparty/README.md says which, why and under which licence.
-find_package(Threads REQUIRED)
-find_package(fmt REQUIRED)
-find_package(spdlog REQUIRED)
-find_package(glm REQUIRED)
-find_package(nlohmann_json REQUIRED)
-find_package(tl-expected REQUIRED)
-find_package(meshoptimizer REQUIRED)
-find_package(CLI11 REQUIRED)
-find_package(GTest REQUIRED)
+# Targets: those of the packages, and tessera_vulkan (Vulkan loader and the newest headers there are, VMA included).
+
+# Finds a package or stops with one line that says what to do.
+macro(tessera_require package)
+  find_package(${package} QUIET)
+  if(NOT ${package}_FOUND)
+    message(FATAL_ERROR "${package} is not installed: run thirdparty/setup.sh")
+  endif()
+endmacro()
+
+foreach(package IN ITEMS Threads fmt spdlog glm nlohmann_json tl-expected meshoptimizer CLI11 ZLIB GTest Vulkan)
+  tessera_require(${package})
+endforeach()
+
+# Headers of a newer Vulkan than the system's, put in place by thirdparty/setup.sh; -isystem puts them before /usr/include.
+set(TESSERA_HEADERS ${PROJECT_SOURCE_DIR}/build/thirdparty/headers/include CACHE PATH
+    "newer Vulkan and VMA headers; the system's are used when it does not exist")
+add_library(tessera_vulkan INTERFACE)
+if(EXISTS ${TESSERA_HEADERS}/vulkan/vulkan.h)
+  target_include_directories(tessera_vulkan SYSTEM INTERFACE ${TESSERA_HEADERS})
+endif()
+target_link_libraries(tessera_vulkan INTERFACE Vulkan::Vulkan)
+
+find_file(TESSERA_VMA_HEADER vk_mem_alloc.h PATHS ${TESSERA_HEADERS} ${Vulkan_INCLUDE_DIRS} PATH_SUFFIXES vma NO_CACHE)
+if(NOT TESSERA_VMA_HEADER)
+  message(FATAL_ERROR "vk_mem_alloc.h (Vulkan Memory Allocator) is not installed: run thirdparty/setup.sh")
+endif()
