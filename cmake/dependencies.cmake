@@ -1,6 +1,12 @@
 # Every library the project stands on; thirdparty/README.md says which, why and under which licence.
 # Targets: those of the packages, and tessera_vulkan (Vulkan loader and the newest headers there are, VMA included).
 
+# Compiles through ccache when it is there.
+find_program(TESSERA_CCACHE ccache)
+if(TESSERA_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${TESSERA_CCACHE})
+endif()
+
 # Finds a package or stops with one line that says what to do.
 macro(tessera_require package)
   find_package(${package} QUIET)
