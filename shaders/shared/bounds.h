@@ -1,0 +1,88 @@
+// bounds.h: boxes that contain everything a displaced cluster can reach, and the test against the view's frustum.
+// Conservative: base points stay in the box of the vertices, displacement adds (direction interval) x (reach interval).
+// Source: DESIGN.md, contract C3.
+#ifndef TESSERA_SHARED_BOUNDS_H
+#define TESSERA_SHARED_BOUNDS_H
+#include "shared/view.h"
+
+SHARED_BEGIN
+
+// Bounds of a cluster or of a whole mesh, mesh units.
+struct DisplacedBounds
+{
+	vec3 low;             // box of the undisplaced vertices
+	vec3 high;
+	vec3 direction_low;   // interval, per axis, of every normalised interpolated displacement direction
+	vec3 direction_high;
+	float reach_low;      // interval of (height * factor + offset) over all mips that may be read; both 0: not displaced
+	float reach_high;
+	vec3 cone_axis;       // normal cone of the base triangles, unit
+	float cone_cutoff;    // back-facing when dot(axis, direction from eye) >= cutoff * length; above 1: never (see scene/)
+};
+SHARED_LAYOUT(DisplacedBounds, 72, cone_cutoff, 68)
+
+// A box in mesh units.
+struct Box
+{
+	vec3 low;
+	vec3 high;
+};
+
+// Interval product [a, b] * [c, d], low and high ends.
+SHARED_FN float productLow(float a, float b, float c, float d) { return min(min(a * c, a * d), min(b * c, b * d)); }
+SHARED_FN float productHigh(float a, float b, float c, float d) { return max(max(a * c, a * d), max(b * c, b * d)); }
+
+// The box of everything the displaced surface can reach, a hair wider than exact to cover rounding.
+SHARED_FN Box displacedBox(DisplacedBounds bounds, float displacement_scale)
+{
+	float reach_low = min(bounds.reach_low * displacement_scale, bounds.reach_high * displacement_scale);
+	float reach_high = max(bounds.reach_low * displacement_scale, bounds.reach_high * displacement_scale);
+	Box box;
+	box.low.x = bounds.low.x + productLow(bounds.direction_low.x, bounds.direction_high.x, reach_low, reach_high);
+	box.low.y = bounds.low.y + productLow(bounds.direction_low.y, bounds.direction_high.y, reach_low, reach_high);
+	box.low.z = bounds.low.z + productLow(bounds.direction_low.z, bounds.direction_high.z, reach_low, reach_high);
+	box.high.x = bounds.high.x + productHigh(bounds.direction_low.x, bounds.direction_high.x, reach_low, reach_high);
+	box.high.y = bounds.high.y + productHigh(bounds.direction_low.y, bounds.direction_high.y, reach_low, reach_high);
+	box.high.z = bounds.high.z + productHigh(bounds.direction_low.z, bounds.direction_high.z, reach_low, reach_high);
+	float size = max(max(box.high.x - box.low.x, box.high.y - box.low.y), box.high.z - box.low.z);
+	float far_corner = max(max(max(box.high.x, -box.low.x), max(box.high.y, -box.low.y)), max(box.high.z, -box.low.z));
+	float margin = size * 1e-5f + far_corner * 1e-6f;
+	box.low.x -= margin; box.low.y -= margin; box.low.z -= margin;
+	box.high.x += margin; box.high.y += margin; box.high.z += margin;
+	return box;
+}
+
+// Largest value over a placed box of the plane function normal . view + w_slope * depth + offset, where the normal is
+// x * right + y * up + depth * forward; centre and half axes are camera-relative.
+SHARED_FN float planeReach(float x, float y, float depth, float offset, vec3 centre, vec3 axis0, vec3 axis1, vec3 axis2, View view)
+{
+	vec3 normal = vec3(x * view.right.x + y * view.up.x + depth * view.forward.x, x * view.right.y + y * view.up.y + depth * view.forward.y,
+	                   x * view.right.z + y * view.up.z + depth * view.forward.z);
+	float middle = normal.x * centre.x + normal.y * centre.y + normal.z * centre.z + offset;
+	float reach0 = normal.x * axis0.x + normal.y * axis0.y + normal.z * axis0.z;
+	float reach1 = normal.x * axis1.x + normal.y * axis1.y + normal.z * axis1.z;
+	float reach2 = normal.x * axis2.x + normal.y * axis2.y + normal.z * axis2.z;
+	float reach = max(reach0, -reach0) + max(reach1, -reach1) + max(reach2, -reach2);
+	float rounding = (max(middle, -middle) + reach + max(centre.x, -centre.x) + max(centre.y, -centre.y) + max(centre.z, -centre.z)) * 4e-6f;
+	return middle + reach + rounding;
+}
+
+// False only when no point of the box can be inside the view: left, right, bottom, top or before the near plane.
+SHARED_FN bool boxMayBeVisible(Box box, Placement placement, View view)
+{
+	vec3 middle = vec3((box.low.x + box.high.x) * 0.5f, (box.low.y + box.high.y) * 0.5f, (box.low.z + box.high.z) * 0.5f);
+	vec3 half_size = vec3(box.high.x - middle.x, box.high.y - middle.y, box.high.z - middle.z);
+	vec3 centre = placed(placement, middle);
+	vec3 axis0 = vec3(placement.row0.x * half_size.x, placement.row1.x * half_size.x, placement.row2.x * half_size.x);
+	vec3 axis1 = vec3(placement.row0.y * half_size.y, placement.row1.y * half_size.y, placement.row2.y * half_size.y);
+	vec3 axis2 = vec3(placement.row0.z * half_size.z, placement.row1.z * half_size.z, placement.row2.z * half_size.z);
+	return planeReach(view.focal_x, 0.0f, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
+	       planeReach(-view.focal_x, 0.0f, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
+	       planeReach(0.0f, view.focal_y, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
+	       planeReach(0.0f, -view.focal_y, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
+	       planeReach(0.0f, 0.0f, 1.0f, -view.near, centre, axis0, axis1, axis2, view) >= 0.0f;
+}
+
+SHARED_END
+
+#endif

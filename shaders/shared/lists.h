@@ -1,0 +1,69 @@
+// lists.h: append lists between stages and how a frame counts them (DESIGN.md, contracts C2 and C7).
+#ifndef TESSERA_SHARED_LISTS_H
+#define TESSERA_SHARED_LISTS_H
+#include "shared/lang.h"
+
+SHARED_BEGIN
+
+// Head of an append list: several workgroups append, later stages read. `group_*` is a ready argument of an indirect
+// draw with one workgroup per entry, laid out as rows of group_width (device limits forbid one long row).
+struct ListHead
+{
+	uint group_width;   // constant, set by the host
+	uint group_rows;    // rows begun: grows with the entries
+	uint group_depth;   // 1
+	uint wanted;        // entries the producers asked for; more than capacity: the frame is coarsened (C2)
+	uint capacity;      // entries the buffer holds
+	uint peak;          // largest `wanted` since the list was made
+	uint peak_used;     // most entries that a drawn frame held
+	uint unused[57];    // heads lie 256 B apart, so that appends to different lists do not share a cache line
+};
+SHARED_LAYOUT(ListHead, 256, unused, 28)
+
+// The lists, in the order of their heads. Names (the promise of the stats) in src/frame/lists.cpp.
+#define LIST_CLUSTER_GROUPS 0u
+#define LIST_VISIBLE_CLUSTERS 1u
+#define LIST_FULL_CLUSTERS 2u
+#define LIST_SPLIT_TRIANGLES 3u
+#define LIST_PART_TRIANGLES 4u
+#define LIST_BATCHES 5u
+#define LIST_EXPANDED_VERTICES 6u
+#define LIST_EXPANDED_TRIANGLES 7u
+#define LIST_COUNT 8u
+
+#define MAX_SPLIT_LEVELS 32
+
+// What a frame counts beside its lists.
+struct FrameCounts
+{
+	uint overflow;          // 1: some list wanted more than its capacity; nothing is drawn from this attempt
+	uint covered_pixels;
+	uint micro_low;         // micro-triangles of part triangles, 64 bits in two words
+	uint micro_high;
+	uint full_cluster_triangles;
+	uint split_count[MAX_SPLIT_LEVELS];  // split triangles appended per level; level 0 by cluster_classify
+	uint deepest_level_wanted;           // 1 + last level that had triangles to split
+};
+SHARED_LAYOUT(FrameCounts, 152, deepest_level_wanted, 148)
+
+// An entry of cluster_groups: up to CLUSTER_GROUP_SIZE clusters of one instance.
+#define CLUSTER_GROUP_SIZE 64u
+struct ClusterGroup
+{
+	uint instance;
+	uint first_cluster;  // global index
+	uint cluster_count;
+};
+SHARED_LAYOUT(ClusterGroup, 12, cluster_count, 8)
+
+// A batch: consecutive part triangles that one mesh-shader workgroup draws.
+#define BATCH_MAX_PARTS 32u
+#define BATCH_MAX_VERTICES 96u
+#define BATCH_MAX_TRIANGLES 128u
+SHARED_FN uint packBatch(uint first_part, uint part_count) { return first_part | ((part_count - 1u) << 24); }
+SHARED_FN uint batchFirst(uint batch) { return batch & 0xffffffu; }
+SHARED_FN uint batchCount(uint batch) { return ((batch >> 24) & 31u) + 1u; }
+
+SHARED_END
+
+#endif

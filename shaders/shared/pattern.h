@@ -1,0 +1,99 @@
+// pattern.h: which table pattern a triangle with three edge factors uses, and the points of that pattern.
+// The table itself is a buffer (tables/ generates it); only its format is known here. Source: DESIGN.md, section 6.
+#ifndef TESSERA_SHARED_PATTERN_H
+#define TESSERA_SHARED_PATTERN_H
+#include "shared/domain.h"
+
+SHARED_BEGIN
+
+// Where a pattern lies in the table's arrays.
+struct PatternRange
+{
+	uint first_triangle;
+	uint first_vertex;
+	uint counts;  // triangles | vertices << 16
+};
+SHARED_LAYOUT(PatternRange, 12, counts, 8)
+
+// The table as a stage sees it.
+struct TableView
+{
+	GPU_PTR(PatternRange) patterns;  // by patternIndex
+	GPU_PTR(uint) vertices;          // run-time order: corners, edge points, interior; 2 x 16-bit barycentrics
+	GPU_PTR(uint) triangles;         // 3 x 8-bit indices, counter-clockwise
+};
+SHARED_LAYOUT(TableView, 24, triangles, 16)
+
+SHARED_FN uint patternTriangles(PatternRange pattern) { return pattern.counts & 0xffffu; }
+SHARED_FN uint patternVertices(PatternRange pattern) { return pattern.counts >> 16; }
+
+// Index of pattern (a, b, c), a >= b >= c >= 1, in increasing order: (1,1,1) (2,1,1) (2,2,1) (2,2,2) (3,1,1) ...
+SHARED_FN uint patternIndex(uint a, uint b, uint c)
+{
+	uint n = a - 1u;
+	uint m = b - 1u;
+	return n * (n + 1u) * (n + 2u) / 6u + m * (m + 1u) / 2u + (c - 1u);
+}
+
+// Puts a piece with corners c0 c1 c2 and edge factors a (c0-c1), b (c1-c2), c (c2-c0) into pattern order:
+// the largest factor first, then the larger of the others; an odd reordering sets `mirror`.
+SHARED_FN DomainPiece inPatternOrder(DomainPiece piece)
+{
+	DomainPiece turned = piece;
+	bool b_first = piece.b > piece.a && piece.b >= piece.c;
+	bool c_first = !b_first && piece.c > piece.a;
+	if (b_first)
+	{
+		turned.c0 = piece.c1; turned.c1 = piece.c2; turned.c2 = piece.c0;
+		turned.a = piece.b; turned.b = piece.c; turned.c = piece.a;
+	}
+	if (c_first)
+	{
+		turned.c0 = piece.c2; turned.c1 = piece.c0; turned.c2 = piece.c1;
+		turned.a = piece.c; turned.b = piece.a; turned.c = piece.b;
+	}
+	if (turned.b >= turned.c)
+		return turned;
+	DomainPiece mirrored = turned;
+	mirrored.c0 = turned.c1;
+	mirrored.c1 = turned.c0;
+	mirrored.b = turned.c;
+	mirrored.c = turned.b;
+	mirrored.mirror = turned.mirror ^ 1u;
+	return mirrored;
+}
+
+// Micro-vertex `index` of a piece: its corners, then the points of edges a, b, c, then the interior of the pattern.
+SHARED_FN DomainPoint patternPoint(DomainPiece piece, uint index, PatternRange pattern, TableView table, uint edge_flags)
+{
+	if (index == 0u)
+		return piece.c0;
+	if (index == 1u)
+		return piece.c1;
+	if (index == 2u)
+		return piece.c2;
+	uint k = index - 2u;
+	if (k < piece.a)
+		return edgePoint(piece.c0, piece.c1, k, piece.a, edge_flags);
+	k -= piece.a - 1u;
+	if (k < piece.b)
+		return edgePoint(piece.c1, piece.c2, k, piece.b, edge_flags);
+	k -= piece.b - 1u;
+	if (k < piece.c)
+		return edgePoint(piece.c2, piece.c0, k, piece.c, edge_flags);
+	return interiorPoint(piece.c0, piece.c1, piece.c2, AT(uint, table.vertices, pattern.first_vertex + index));
+}
+
+// The three micro-vertices of micro-triangle `index`, in the base triangle's winding.
+SHARED_FN uvec3 patternTriangle(uint index, PatternRange pattern, TableView table, uint mirror)
+{
+	uint packed_indices = AT(uint, table.triangles, pattern.first_triangle + index);
+	uint i0 = packed_indices & 0xffu;
+	uint i1 = (packed_indices >> 8) & 0xffu;
+	uint i2 = (packed_indices >> 16) & 0xffu;
+	return mirror != 0u ? uvec3(i1, i0, i2) : uvec3(i0, i1, i2);
+}
+
+SHARED_END
+
+#endif
