@@ -227,9 +227,9 @@ setUpDebian()
 
 	if (( ${#missing[@]} || mesa_missing ))
 	then
-		needRoot
 		(( ${#missing[@]} )) && say "will install these packages and what they depend on: ${missing[*]}"
 		(( mesa_missing )) && say "will install mesa-vulkan-drivers (>= $mesa_wanted) for its software Vulkan driver"
+		needRoot
 		(( mesa_missing && version == 12 )) && addBackports
 		asRoot apt-get update -q
 		(( ${#missing[@]} )) && aptInstall "" "${missing[@]}"
