@@ -44,7 +44,8 @@ checkFormat()
 
 checkTidy()
 {
-	sources | grep -E '^(src|tables)/.*\.cpp$' | xargs -r -n 4 -P "$(nproc)" clang-tidy --quiet -p build/clang
+	sources | grep -E '^(src|tables)/.*\.cpp$' | xargs -r -n 4 -P "$(nproc)" clang-tidy --quiet -p build/clang \
+		2> >(grep -v 'warnings generated' >&2)
 }
 
 all=0

@@ -3,8 +3,8 @@
 #   lib/                           the shared libraries it needs, without those that belong to the machine it runs on
 #   share/tessera/shaders/**.spv   compiled shaders
 # Belong to the machine: the C library, the Vulkan loader and drivers (the loader has to find that machine's drivers), and the
-# C++ run-time library: drivers load it too and may need a newer one than the build machine's, while any machine whose C
-# library is new enough for this build has a new enough C++ one. TESSERA_INSTALL_CXX_RUNTIME brings it along all the same.
+# C++ run-time library: drivers load it too and may need a newer one than the build machine's (seen: no device found).
+# TESSERA_INSTALL_CXX_RUNTIME brings it along all the same, for a machine that has none or an older one.
 option(TESSERA_INSTALL_CXX_RUNTIME "install libstdc++ and libgcc_s beside the program's other libraries" OFF)
 
 if(TARGET tessera)
