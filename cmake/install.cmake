@@ -8,7 +8,6 @@
 option(TESSERA_INSTALL_CXX_RUNTIME "install libstdc++ and libgcc_s beside the program's other libraries" OFF)
 
 if(TARGET tessera)
-  include(GNUInstallDirs)
   set_target_properties(tessera PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")
   install(TARGETS tessera RUNTIME DESTINATION bin)
   install(DIRECTORY ${PROJECT_BINARY_DIR}/shaders/ DESTINATION share/tessera/shaders FILES_MATCHING PATTERN "*.spv"

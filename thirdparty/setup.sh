@@ -219,7 +219,7 @@ unpackNewerHeaders()
 setUpDebian()
 {
 	local wanted=("${build_packages[@]}" "${test_packages[@]}")
-	local missing mesa_missing=0
+	local missing mesa_missing=0 mesa_suite=""
 	(( version >= 13 )) && wanted+=(libvulkan-memory-allocator-dev)
 	(( with_all )) && wanted+=("${all_packages[@]}")
 	mapfile -t missing < <(missingPackages "${wanted[@]}")
@@ -233,10 +233,8 @@ setUpDebian()
 		(( mesa_missing && version == 12 )) && addBackports
 		asRoot apt-get update -q
 		(( ${#missing[@]} )) && aptInstall "" "${missing[@]}"
-		if (( mesa_missing ))
-		then
-			(( version == 12 )) && aptInstall "$codename-backports" mesa-vulkan-drivers || aptInstall "" mesa-vulkan-drivers
-		fi
+		(( version == 12 )) && mesa_suite=$codename-backports
+		(( mesa_missing )) && aptInstall "$mesa_suite" mesa-vulkan-drivers
 	fi
 	headersComplete || unpackNewerHeaders
 	say "everything is there"
