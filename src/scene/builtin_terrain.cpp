@@ -1,0 +1,73 @@
+// The terrain: an eroded mountain valley with a lake.
+#include "scene/builtin_noise.h"
+#include "scene/builtin_parts.h"
+#include "scene/builtin_scenes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera::builtin
+{
+
+static constexpr uint32_t kTexels = 2048;
+static constexpr float kSide = 10;     // mesh units
+static constexpr float kRelief = 2.6f; // mesh units from the lake to the highest peak
+static constexpr float kLake = 0.10f;  // height of the lake's surface before normalising
+
+// Height at uv within the square, 0..1 or so.
+static float groundHeight(vec2 uv)
+{
+	const vec2 p = uv * 5.0f + vec2(2.7f, 8.1f);
+	const vec2 push = { valueNoiseWithGradient(p * 0.8f, 3).x, valueNoiseWithGradient(p * 0.8f, 4).x };
+	const float worn = 0.5f + 0.5f * erodedNoise(p + 0.25f * push, 11, 17);
+	// A valley runs through, from the near left to the far right.
+	const float middle = 0.46f + 0.20f * (uv.y - 0.5f) + 0.09f * valueNoiseWithGradient(uv * vec2(1.0f, 4.0f), 5).x;
+	const float aside = (uv.x - middle) * (uv.x - middle);
+	const float walls = smoothStep(0.0f, 0.11f, aside);
+	return worn * (0.30f + 0.95f * walls) + 0.22f * walls * worn * worn - 0.07f;
+}
+
+static vec3 groundColor(vec2 uv, float height, float steepness)
+{
+	const vec3 at = { uv * 40.0f, 0.5f };
+	const float mottle = fractalNoise(at, 5, 71);
+	vec3 grass = glm::mix(vec3(0.30f, 0.40f, 0.15f), vec3(0.20f, 0.31f, 0.12f), smoothStep(-0.4f, 0.4f, mottle));
+	grass = glm::mix(grass, vec3(0.48f, 0.45f, 0.25f), smoothStep(0.28f, 0.50f, height + 0.10f * mottle));
+	const vec3 rock = glm::mix(vec3(0.36f, 0.33f, 0.31f), vec3(0.52f, 0.48f, 0.44f), 0.5f + 0.8f * mottle);
+	vec3 color = glm::mix(grass, rock, smoothStep(0.75f, 1.05f, steepness + 0.75f * height + 0.12f * mottle));
+	const float snow = smoothStep(0.52f, 0.62f, height + 0.05f * mottle) * smoothStep(1.55f, 0.95f, steepness);
+	color = glm::mix(color, vec3(0.93f, 0.95f, 0.98f), snow);
+	return glm::mix(vec3(0.62f, 0.56f, 0.42f), color, smoothStep(0.004f, 0.016f, height));
+}
+
+ImportedScene makeTerrain(uint32_t)
+{
+	HeightField ground(kTexels, kTexels);
+	forEachTexel(kTexels, kTexels,
+				 [&](uint32_t x, uint32_t y) { ground.at(x, y) = groundHeight(vec2(float(x) + 0.5f, float(y) + 0.5f) / float(kTexels)) - kLake; });
+	HeightField heights = ground;
+	for (float& height : heights.values)
+		height = std::max(height, 0.0f);
+	heights.normalize();
+	constexpr float kSlopeScale = kRelief / kSide * float(kTexels);
+	Image color = colorImage("terrain color", kTexels, kTexels, [&](uint32_t x, uint32_t y) {
+		const float depth = -ground.at(x, y);
+		if (depth > 0)
+			return glm::mix(vec3(0.22f, 0.42f, 0.42f), vec3(0.06f, 0.17f, 0.24f), smoothStep(0.0f, 0.05f, depth));
+		const vec2 slope = heights.slope(x, y, false) * kSlopeScale;
+		return groundColor(vec2(float(x), float(y)) / float(kTexels), heights.at(x, y), std::sqrt(glm::dot(slope, slope)));
+	});
+
+	ImportedScene scene;
+	const uint32_t color_texture = addTexture(scene, std::move(color), Wrap::ClampToEdge, Wrap::ClampToEdge);
+	const uint32_t height_texture = addTexture(scene, heightImage("terrain height", heights), Wrap::ClampToEdge, Wrap::ClampToEdge);
+	scene.materials.push_back(displacedMaterial("terrain", color_texture, height_texture, kRelief, 0, 0.9f));
+	Primitive grid;
+	// Top of the map is far away (-z).
+	addGrid(grid, { -kSide / 2, 0, kSide / 2 }, { kSide, 0, 0 }, { 0, 0, -kSide }, 32, 32, { 0, 1 }, { 1, 0 });
+	scene.instances.push_back({ addMesh(scene, "terrain", { std::move(grid) }), dmat4(1) });
+	scene.cameras.push_back(lookAtCamera({ -0.8, 2.3, 6.2 }, { 0.1, 0.75, 0 }, 48));
+	return scene;
+}
+
+} // namespace tessera::builtin
