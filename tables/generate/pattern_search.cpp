@@ -19,17 +19,18 @@ InteriorRange interiorRange(uint32_t a, uint32_t b, uint32_t c)
 	if (a == b && b == c)
 		return { (a - 1) * (a - 2) / 2, (a - 1) * (a - 2) / 2 };
 
-	// Least: unit triangles in the flat triangle whose sides are a, b, c long: every edge is cut at the same length there.
+	// Least: unit triangles in the flat triangle whose sides are a, b, c long: every edge is cut at the same length there. Up to eight
+	// points are rounded up, since a missing one empties the middle; more are rounded down, which pays for stretched patterns.
 	const int64_t squared = std::max<int64_t>(0, sixteenSquaredAreas(a, b, c));
 	const double even = std::sqrt(double(squared) / 3); // area over the area of the unit triangle, sqrt(3) / 4
-	const double least = (even - rim_triangles) / 2 + 0.5;
+	const double least = std::max(0.0, (even - rim_triangles) / 2);
 	// Most: the mean density over the three corners, each with the density of its two edges.
 	const double mean = double(a * b + b * c + c * a) / 3;
-	const double most = (mean - rim_triangles) / 2 + 0.5;
+	const double most = std::max(0.0, (mean - rim_triangles) / 2 + 0.5);
 
 	InteriorRange range;
-	range.least = least > 0 ? uint32_t(least) : 0;
-	range.most = std::max(range.least, most > 0 ? uint32_t(most) : 0);
+	range.least = uint32_t(least <= 8 ? std::ceil(least) : std::floor(least));
+	range.most = std::max(range.least, uint32_t(most));
 	return range;
 }
 
