@@ -71,7 +71,8 @@ struct Material
 	float roughness = 1;
 	vec3 emissive = { 0, 0, 0 };
 	bool double_sided = false;
-	std::optional<Displacement> displacement;
+	std::optional<Displacement> displacement;  // set only if all primitives with this material have the TEXCOORD set it reads
+	std::optional<uint32_t> variant_of;        // a copy of that material, for primitives that lack texture coordinates for it
 };
 
 // Triangles of one material. Attribute arrays are empty or as long as positions.
