@@ -55,4 +55,4 @@ inline int32_t edgeCoordinate(uint32_t k, uint32_t n)
 	return int32_t((uint32_t(kBarycentricOne) * k + n / 2) / n);
 }
 
-} // namespace tessera
+}  // namespace tessera

@@ -39,4 +39,4 @@ PatternUse usePattern(uint32_t f01, uint32_t f12, uint32_t f20)
 	checkFailed(__FILE__, __LINE__, "sorted", "three factors always have a sorted order");
 }
 
-} // namespace tessera
+}  // namespace tessera

@@ -11,11 +11,11 @@
 namespace tessera
 {
 
-inline constexpr uint32_t kMaxEdgeSegments = 11;         // of any table: the limits below end there
-inline constexpr uint32_t kMaxPatternTriangles = 128;    // of one pattern
-inline constexpr uint32_t kMaxPatternVertices = 96;      // of one pattern
-inline constexpr uint32_t kMaxSmallPatternTriangles = 4; // of a pattern up to (2, 2, 2)
-inline constexpr uint32_t kMaxSmallPatternVertices = 6;  // of a pattern up to (2, 2, 2)
+inline constexpr uint32_t kMaxEdgeSegments = 11;          // of any table: the limits below end there
+inline constexpr uint32_t kMaxPatternTriangles = 128;     // of one pattern
+inline constexpr uint32_t kMaxPatternVertices = 96;       // of one pattern
+inline constexpr uint32_t kMaxSmallPatternTriangles = 4;  // of a pattern up to (2, 2, 2)
+inline constexpr uint32_t kMaxSmallPatternVertices = 6;   // of a pattern up to (2, 2, 2)
 
 // One pattern: its ranges of the table's lists.
 struct TableConfig
@@ -31,9 +31,9 @@ struct TableConfig
 struct TessellationTable
 {
 	uint32_t max_edge_segments = kMaxEdgeSegments;
-	std::vector<uint32_t> vertices;   // u | v << 16: weights of corner 0 and corner 1, 1 << 15 = 1.0; corner 2 has the rest
-	std::vector<uint32_t> triangles;  // i0 | i1 << 8 | i2 << 16: vertices of the config, turning like corners 0, 1, 2 (counter-clockwise)
-	std::vector<TableConfig> configs; // in the order (1,1,1), (2,1,1), (2,2,1), (2,2,2), (3,1,1), ...
+	std::vector<uint32_t> vertices;    // u | v << 16: weights of corner 0 and corner 1, 1 << 15 = 1.0; corner 2 has the rest
+	std::vector<uint32_t> triangles;   // i0 | i1 << 8 | i2 << 16: vertices of the config, turning like corners 0, 1, 2 (counter-clockwise)
+	std::vector<TableConfig> configs;  // in the order (1,1,1), (2,1,1), (2,2,1), (2,2,2), (3,1,1), ...
 };
 
 // Number of configs of a table up to `max_edge_segments`: 286 for 11.
@@ -54,9 +54,9 @@ std::vector<std::array<uint32_t, 3>> configFactors(uint32_t max_edge_segments);
 // How a triangle uses the table.
 struct PatternUse
 {
-	uint32_t config = 0;                               // index into TessellationTable::configs
-	std::array<uint8_t, 3> corner_order = { 0, 1, 2 }; // pattern corner i lies on the triangle's corner corner_order[i]
-	bool mirror = false;                               // the pattern is turned over: emit its triangles with two indices swapped
+	uint32_t config = 0;                                // index into TessellationTable::configs
+	std::array<uint8_t, 3> corner_order = { 0, 1, 2 };  // pattern corner i lies on the triangle's corner corner_order[i]
+	bool mirror = false;                                // the pattern is turned over: emit its triangles with two indices swapped
 };
 
 // Turns or mirrors a triangle so that its factors are sorted. f01 is the factor of the edge between corners 0 and 1, and so on; each
@@ -77,4 +77,4 @@ Result<TessellationTable> loadTable(const std::filesystem::path& path);
 // Writes a table that loadTable reads. Errors: those of writeFile.
 Status saveTable(const TessellationTable& table, const std::filesystem::path& path);
 
-} // namespace tessera
+}  // namespace tessera

@@ -221,4 +221,4 @@ Status checkTable(const TessellationTable& table)
 	return {};
 }
 
-} // namespace tessera
+}  // namespace tessera

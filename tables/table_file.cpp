@@ -112,8 +112,8 @@ static Result<RawTable> readLists(const json& file)
 struct PatternReader
 {
 	std::array<uint32_t, 3> factors;
-	std::vector<std::array<int32_t, 3>> weights; // u, v, w as the file has them
-	std::array<uint8_t, 3> roles = { 0, 1, 2 };  // corner i has weight roles[i]
+	std::vector<std::array<int32_t, 3>> weights;  // u, v, w as the file has them
+	std::array<uint8_t, 3> roles = { 0, 1, 2 };   // corner i has weight roles[i]
 
 	int32_t weight(uint32_t vertex, uint32_t corner) const { return weights[vertex][roles[corner]]; }
 	bool isCorner(uint32_t vertex, uint32_t corner) const { return weight(vertex, corner) == kBarycentricOne; }
@@ -198,7 +198,7 @@ static Result<std::vector<uint32_t>> runTimeOrder(const PatternReader& reader)
 static uint32_t packVertex(const PatternReader& reader, uint32_t vertex, uint32_t place)
 {
 	std::array<int32_t, 3> weights = { reader.weight(vertex, 0), reader.weight(vertex, 1), reader.weight(vertex, 2) };
-	uint32_t first = 3; // place of the edge's first point
+	uint32_t first = 3;  // place of the edge's first point
 	for (uint32_t edge = 0; edge < 3; edge++)
 	{
 		const uint32_t n = reader.factors[edge];
@@ -301,4 +301,4 @@ Status saveTable(const TessellationTable& table, const std::filesystem::path& pa
 	return writeFile(path, file.dump() + "\n");
 }
 
-} // namespace tessera
+}  // namespace tessera

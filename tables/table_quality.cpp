@@ -10,7 +10,7 @@ namespace tessera
 
 uint32_t countFetches(std::span<const uint32_t> triangles)
 {
-	std::array<uint32_t, 256> fetched_at = {}; // 1 + number of fetches before; 0 = never
+	std::array<uint32_t, 256> fetched_at = {};  // 1 + number of fetches before; 0 = never
 	uint32_t fetches = 0;
 	for (const uint32_t packed : triangles)
 	{
@@ -118,4 +118,4 @@ std::string qualityReport(const TableQuality& quality, bool every_config)
 	return text;
 }
 
-} // namespace tessera
+}  // namespace tessera

@@ -84,4 +84,4 @@ std::vector<uint32_t> orderForReuse(const std::vector<uint32_t>& triangles)
 	return best;
 }
 
-} // namespace tessera::generate
+}  // namespace tessera::generate

@@ -10,4 +10,4 @@ namespace tessera::generate
 // holds a corner, always to the one with most of its vertices still there, those soonest lost first. The best of these orders.
 std::vector<uint32_t> orderForReuse(const std::vector<uint32_t>& triangles);
 
-} // namespace tessera::generate
+}  // namespace tessera::generate

@@ -65,7 +65,7 @@ static Status run(const char* path)
 	return writeFile(path, sourceText(table));
 }
 
-} // namespace tessera::generate
+}  // namespace tessera::generate
 
 int main(int argument_count, char** arguments)
 {

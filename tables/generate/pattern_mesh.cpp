@@ -252,4 +252,4 @@ void PatternMesh::relax(int32_t first_step, int32_t last_step, uint32_t sweeps)
 	}
 }
 
-} // namespace tessera::generate
+}  // namespace tessera::generate

@@ -53,9 +53,9 @@ private:
 	static constexpr uint32_t kMaxPoints = 128;
 	std::vector<LatticePoint> points_;
 	std::vector<Triangle> triangles_;
-	std::vector<double> costs_;             // of each triangle
-	std::vector<int16_t> triangle_left_of_; // [from * kMaxPoints + to]: the triangle with that directed side, or -1
+	std::vector<double> costs_;              // of each triangle
+	std::vector<int16_t> triangle_left_of_;  // [from * kMaxPoints + to]: the triangle with that directed side, or -1
 	uint32_t boundary_count_ = 0;
 };
 
-} // namespace tessera::generate
+}  // namespace tessera::generate

@@ -7,7 +7,7 @@
 namespace tessera::generate
 {
 
-// Sixteen times the area of the triangle with sides a, b, c, squared (Heron); negative when there is no such triangle.
+// Sixteen times the squared area of the triangle with sides a, b, c (Heron); negative when there is no such triangle.
 static int64_t sixteenSquaredAreas(int64_t a, int64_t b, int64_t c)
 {
 	return (a + b + c) * (a + b - c) * (a - b + c) * (-a + b + c);
@@ -15,14 +15,14 @@ static int64_t sixteenSquaredAreas(int64_t a, int64_t b, int64_t c)
 
 InteriorRange interiorRange(uint32_t a, uint32_t b, uint32_t c)
 {
-	const uint32_t rim_triangles = a + b + c - 2; // every interior point adds two
+	const uint32_t rim_triangles = a + b + c - 2;  // every interior point adds two
 	if (a == b && b == c)
 		return { (a - 1) * (a - 2) / 2, (a - 1) * (a - 2) / 2 };
 
 	// Least: unit triangles in the flat triangle whose sides are a, b, c long: every edge is cut at the same length there. Up to eight
 	// points are rounded up, since a missing one empties the middle; more are rounded down, which pays for stretched patterns.
 	const int64_t squared = std::max<int64_t>(0, sixteenSquaredAreas(a, b, c));
-	const double even = std::sqrt(double(squared) / 3); // area over the area of the unit triangle, sqrt(3) / 4
+	const double even = std::sqrt(double(squared) / 3);  // area over the area of the unit triangle, sqrt(3) / 4
 	const double least = std::max(0.0, (even - rim_triangles) / 2);
 	// Most: the mean density over the three corners, each with the density of its two edges.
 	const double mean = double(a * b + b * c + c * a) / 3;
@@ -37,7 +37,7 @@ InteriorRange interiorRange(uint32_t a, uint32_t b, uint32_t c)
 // Segment length wanted at a point: that of the edges, the nearer the more. In lattice units.
 static double wantedLength(LatticePoint p, const std::array<uint32_t, 3>& factors)
 {
-	const std::array<double, 3> distances = { double(p.w()), double(p.u), double(p.v) }; // to edges a, b, c
+	const std::array<double, 3> distances = { double(p.w()), double(p.u), double(p.v) };  // to edges a, b, c
 	double weighted = 0;
 	double weights = 0;
 	for (uint32_t edge = 0; edge < 3; edge++)
@@ -183,4 +183,4 @@ std::vector<uint32_t> spendTriangles(std::span<const std::vector<PatternMesh>> p
 	}
 }
 
-} // namespace tessera::generate
+}  // namespace tessera::generate

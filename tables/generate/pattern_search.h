@@ -25,4 +25,4 @@ std::vector<PatternMesh> searchPatterns(uint32_t a, uint32_t b, uint32_t c, Inte
 // add up to as much as possible. Returns an index per list; every list's first pattern must fit the budget together.
 std::vector<uint32_t> spendTriangles(std::span<const std::vector<PatternMesh>> patterns, uint32_t triangle_budget);
 
-} // namespace tessera::generate
+}  // namespace tessera::generate

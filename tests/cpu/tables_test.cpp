@@ -104,7 +104,7 @@ protected:
 	std::filesystem::path path_;
 };
 
-} // namespace
+}  // namespace
 
 TEST(table, configsAreNumberedInIncreasingOrder)
 {
@@ -255,7 +255,7 @@ TEST(table, checksFindEveryBrokenRule)
 	expectBroken(bad, name, "must be corner 0");
 
 	bad = good;
-	bad.vertices[config.first_vertex + 4] += 0x0000ffff; // one unit less of u, one more of v: still on the edge
+	bad.vertices[config.first_vertex + 4] += 0x0000ffff;  // one unit less of u, one more of v: still on the edge
 	expectBroken(bad, name, "point 2 of edge a");
 
 	bad = good;
@@ -408,7 +408,7 @@ TEST(tableQuality, fetchesAreCountedByHand)
 {
 	EXPECT_EQ(countFetches({}), 0u);
 	EXPECT_EQ(countFetches(std::vector<uint32_t>{ 0x020100, 0x030201 }), 4u);
-	std::vector<uint32_t> far; // 0 1 2, then 15 others, then 0 again: lost by one
+	std::vector<uint32_t> far;  // 0 1 2, then 15 others, then 0 again: lost by one
 	for (uint32_t i = 0; i < 6; i++)
 		far.push_back(3 * i | (3 * i + 1) << 8 | (3 * i + 2) << 16);
 	far.push_back(0x020100);
@@ -521,6 +521,25 @@ TEST_F(TableFile, aSmallerTableIsAccepted)
 	EXPECT_EQ(read->triangles, small.triangles);
 }
 
+TEST_F(TableFile, theExampleOfTheDocumentationIsAccepted)
+{
+	// The same text as in docs/formats.md.
+	const json file = json::parse(R"({ "max_edge_segments": 2,
+	  "vertices": [[32768,0],[0,32768],[0,0],
+	               [32768,0],[0,32768],[0,0],[16384,16384],
+	               [32768,0],[0,32768],[0,0],[16384,16384],[0,16384],
+	               [32768,0],[0,32768],[0,0],[16384,16384],[0,16384],[16384,0]],
+	  "triangles": [[0,1,2], [0,3,2],[3,1,2], [0,3,2],[3,4,2],[3,1,4], [0,3,5],[3,1,4],[5,4,2],[3,4,5]],
+	  "configs": [{"firstTriangle":0,"firstVertex":0, "numTriangles":1,"numVertices":3},
+	              {"firstTriangle":1,"firstVertex":3, "numTriangles":2,"numVertices":4},
+	              {"firstTriangle":3,"firstVertex":7, "numTriangles":3,"numVertices":5},
+	              {"firstTriangle":6,"firstVertex":12,"numTriangles":4,"numVertices":6}] })");
+	const Result<TessellationTable> read = loaded(file);
+	ASSERT_TRUE(read) << read.error().message;
+	EXPECT_EQ(read->configs.size(), 4u);
+	EXPECT_EQ(read->triangles.size(), 10u);
+}
+
 TEST_F(TableFile, brokenFilesGiveOneClearLine)
 {
 	const TessellationTable& table = defaultTable();
@@ -578,4 +597,4 @@ TEST_F(TableFile, brokenFilesGiveOneClearLine)
 	expectRefused(bad, "config (5,4,3)", "covered exactly once");
 }
 
-} // namespace tessera
+}  // namespace tessera
