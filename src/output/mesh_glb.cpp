@@ -331,4 +331,4 @@ Status writeMeshGlb(const std::filesystem::path& path, const MeshView& mesh)
 	return file.write();
 }
 
-} // namespace tessera
+}  // namespace tessera

@@ -18,4 +18,4 @@ Status writeSceneGlb(const std::filesystem::path& path, const ImportedScene& sce
 // Errors: BadInput (path and reason: more than 4 GiB); no partial file is left.
 Status writeMeshGlb(const std::filesystem::path& path, const MeshView& mesh);
 
-} // namespace tessera
+}  // namespace tessera

@@ -73,4 +73,4 @@ Status writePly(const std::filesystem::path& path, const MeshView& mesh)
 	return writeFile(path, file);
 }
 
-} // namespace tessera
+}  // namespace tessera

@@ -14,9 +14,9 @@ namespace tessera
 struct MeshView
 {
 	std::span<const vec3> positions;
-	std::span<const vec3> normals;     // optional
-	std::span<const vec2> uvs;         // optional; v runs down, as in glTF
-	std::span<const uint32_t> indices; // 3 per triangle, each < positions.size(), counter-clockwise front
+	std::span<const vec3> normals;      // optional
+	std::span<const vec2> uvs;          // optional; v runs down, as in glTF
+	std::span<const uint32_t> indices;  // 3 per triangle, each < positions.size(), counter-clockwise front
 };
 
 // Writes x y z, nx ny nz, s t (v turned to run up, as PLY's tools expect) and faces of three uint indices.
@@ -27,4 +27,4 @@ Status writePly(const std::filesystem::path& path, const MeshView& mesh);
 // CHECKs the promises of MeshView.
 void checkMesh(const MeshView& mesh);
 
-} // namespace tessera
+}  // namespace tessera

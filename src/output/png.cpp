@@ -172,4 +172,4 @@ Status writePng16(const std::filesystem::path& path, uint32_t width, uint32_t he
 	return writeTexels(path, { width, height, channels, 16, std::as_bytes(texels) });
 }
 
-} // namespace tessera
+}  // namespace tessera

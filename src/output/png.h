@@ -14,11 +14,11 @@ namespace tessera
 // Texels to store: rows top to bottom, channels interleaved, no padding.
 struct PngTexels
 {
-	uint32_t width = 0;               // 1..2^20
-	uint32_t height = 0;              // 1..2^20
-	uint32_t channels = 0;            // 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA
-	uint32_t bits = 8;                // per channel: 8, or 16 in the host's byte order
-	std::span<const std::byte> bytes; // width * height * channels * bits / 8
+	uint32_t width = 0;                // 1..2^20
+	uint32_t height = 0;               // 1..2^20
+	uint32_t channels = 0;             // 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA
+	uint32_t bits = 8;                 // per channel: 8, or 16 in the host's byte order
+	std::span<const std::byte> bytes;  // width * height * channels * bits / 8
 };
 
 // The bytes of a PNG file. A broken promise of PngTexels is our bug and fails a CHECK.
@@ -31,4 +31,4 @@ Status writePng(const std::filesystem::path& path, uint32_t width, uint32_t heig
 // Writes 16-bit texels of 1..4 channels, such as heights.
 Status writePng16(const std::filesystem::path& path, uint32_t width, uint32_t height, std::span<const uint16_t> texels, uint32_t channels = 1);
 
-} // namespace tessera
+}  // namespace tessera

@@ -80,4 +80,4 @@ Result<ImportedScene> makeBuiltinScene(std::string_view name)
 	return badInput("builtin:{}: there is no such built-in scene; there are {}", name, allNames());
 }
 
-} // namespace tessera
+}  // namespace tessera

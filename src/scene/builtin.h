@@ -12,8 +12,8 @@ namespace tessera
 struct BuiltinScene
 {
 	std::string_view name;
-	std::string_view help;      // one line
-	uint32_t default_count = 0; // instances when `name:count` is not given; 0: the scene takes no count
+	std::string_view help;       // one line
+	uint32_t default_count = 0;  // instances when `name:count` is not given; 0: the scene takes no count
 };
 
 // All of them, the default one first.
@@ -24,4 +24,4 @@ std::span<const BuiltinScene> builtinScenes();
 // Errors: BadInput (unknown name, count not a number, out of range or not taken by this scene).
 Result<ImportedScene> makeBuiltinScene(std::string_view name);
 
-} // namespace tessera
+}  // namespace tessera

@@ -28,9 +28,9 @@ static vec2 texelCenter(uint32_t x, uint32_t y, uint32_t size)
 // The brick that a place lies on. Lengths are in course heights: a brick's cell is 3 x 1.
 struct BrickPlace
 {
-	uint32_t hash = 0;     // of the brick
-	vec2 from_middle = {}; // of the brick's cell
-	float inside = 0;      // how far inside the brick's outline; negative in the mortar
+	uint32_t hash = 0;      // of the brick
+	vec2 from_middle = {};  // of the brick's cell
+	float inside = 0;       // how far inside the brick's outline; negative in the mortar
 };
 
 static BrickPlace brickPlace(vec2 uv)
@@ -73,11 +73,11 @@ static vec3 brickColor(vec2 uv, const BrickPlace& place)
 {
 	const float which = unitFloat(mixBits(place.hash + 5)), shade = unitFloat(mixBits(place.hash + 6));
 	const float grain = tileableNoise(uv, 60, 5, 27);
-	vec3 clay = glm::mix(vec3(0.62f, 0.29f, 0.19f), vec3(0.46f, 0.20f, 0.15f), shade);
+	vec3 clay = glm::mix(vec3(0.60f, 0.33f, 0.25f), vec3(0.47f, 0.25f, 0.20f), shade);
 	if (which < 0.22f)
-		clay = glm::mix(vec3(0.72f, 0.42f, 0.26f), vec3(0.66f, 0.35f, 0.21f), shade);
+		clay = glm::mix(vec3(0.69f, 0.46f, 0.33f), vec3(0.64f, 0.40f, 0.29f), shade);
 	else if (which < 0.36f)
-		clay = glm::mix(vec3(0.33f, 0.19f, 0.17f), vec3(0.40f, 0.23f, 0.19f), shade);
+		clay = glm::mix(vec3(0.34f, 0.23f, 0.21f), vec3(0.41f, 0.27f, 0.23f), shade);
 	clay += 0.13f * grain;
 	const vec3 mortar = vec3(0.66f, 0.62f, 0.55f) + 0.12f * tileableNoise(uv, 150, 3, 28);
 	return glm::mix(mortar, clay, smoothStep(-0.01f, 0.03f, place.inside));
@@ -119,4 +119,4 @@ uint32_t addCobbleMaterial(ImportedScene& scene, uint32_t size, float factor, fl
 	return addMaps(scene, "cobbles", heights, std::move(color), factor, offset);
 }
 
-} // namespace tessera::builtin
+}  // namespace tessera::builtin

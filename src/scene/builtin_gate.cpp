@@ -12,16 +12,16 @@ namespace tessera::builtin
 
 // Outline of the gate, in mesh units (sums of powers of two, so that steps between them are exact). The wall is as wide to each side as it is high
 // above the arch's springing, so that a ray at 45 degrees from the arch's centre meets the corner.
-static constexpr double kOpening = 0.8125; // radius of the opening
-static constexpr double kArch = 1.125;     // outer radius of the arch
-static constexpr double kSpring = 1.5;     // height at which the arch begins
+static constexpr double kOpening = 0.8125;  // radius of the opening
+static constexpr double kArch = 1.125;      // outer radius of the arch
+static constexpr double kSpring = 1.5;      // height at which the arch begins
 static constexpr double kHalfWidth = 2.0;
 static constexpr double kHalfDepth = 0.25;
-static constexpr uint32_t kArcSteps = 24; // divisible by 4
-static constexpr uint32_t kPierSteps = 6; // across a pier, from the arch outward
-static constexpr uint32_t kRiseSteps = 9; // up a pier
+static constexpr uint32_t kArcSteps = 24;  // divisible by 4
+static constexpr uint32_t kPierSteps = 6;  // across a pier, from the arch outward
+static constexpr uint32_t kRiseSteps = 9;  // up a pier
 static constexpr uint32_t kDepthSteps = 4;
-static constexpr double kTile = 1.5; // mesh units per tile of the brick map: bricks of 0.25 x 0.083
+static constexpr double kTile = 1.5;  // mesh units per tile of the brick map: bricks of 0.25 x 0.083
 
 // Rounds to a multiple of 2^-20: parts of the outline that are computed in two ways become equal to the bit.
 static double snapped(double x)
@@ -230,8 +230,8 @@ ImportedScene makeBricks(uint32_t)
 	addGrid(yard, { -6, 0, 6 }, { 12, 0, 0 }, { 0, 0, -12 }, 24, 24, { 0, 6 }, { 6, 0 });
 	yard.material = cobbles;
 	scene.instances.push_back({ addMesh(scene, "yard", { std::move(yard) }), dmat4(1) });
-	scene.cameras.push_back(lookAtCamera({ -2.1, 1.35, 4.3 }, { 0.05, 1.45, 0 }, 46));
+	scene.cameras.push_back(lookAtCamera({ -2.6, 1.75, 5.9 }, { -0.05, 1.55, 0 }, 42));
 	return scene;
 }
 
-} // namespace tessera::builtin
+}  // namespace tessera::builtin

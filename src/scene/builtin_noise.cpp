@@ -92,6 +92,13 @@ vec3 valueNoiseWithGradient(vec2 p, uint32_t seed, int period)
 	return { a + (b - a) * u + (c - a) * v + twist * u * v, fadeSlope(f.x) * (b - a + twist * v), fadeSlope(f.y) * (c - a + twist * u) };
 }
 
+// The next octave's place: turned, so that the lattices of two octaves don't line up, and `finer` times as fine.
+static vec3 nextOctave(vec3 p, float finer)
+{
+	const vec3 turned = { 0.80f * p.y + 0.60f * p.z, -0.80f * p.x + 0.36f * p.y - 0.48f * p.z, -0.60f * p.x - 0.48f * p.y + 0.64f * p.z };
+	return turned * finer + vec3(11.7f, 5.3f, 7.9f);
+}
+
 float fractalNoise(vec3 p, int octaves, uint32_t seed)
 {
 	float sum = 0, amplitude = 0.55f;
@@ -99,7 +106,7 @@ float fractalNoise(vec3 p, int octaves, uint32_t seed)
 	{
 		sum += amplitude * gradientNoise(p, seed + uint32_t(i));
 		amplitude *= 0.5f;
-		p = p * 2.03f + vec3(11.7f, 5.3f, 7.9f);
+		p = nextOctave(p, 2.03f);
 	}
 	return sum;
 }
@@ -115,7 +122,7 @@ float ridgedNoise(vec3 p, int octaves, uint32_t seed)
 		weight = glm::clamp(crest * 1.9f, 0.0f, 1.0f);
 		sum += amplitude * crest;
 		amplitude *= 0.52f;
-		p = p * 2.07f + vec3(3.1f, 17.3f, 9.7f);
+		p = nextOctave(p, 2.07f);
 	}
 	return sum;
 }
@@ -182,4 +189,4 @@ CellPoint tileableCells(vec2 uv, int cells, uint32_t seed)
 	return { std::sqrt(nearest_squared), border, hashes[nearest], p - points[nearest] };
 }
 
-} // namespace tessera::builtin
+}  // namespace tessera::builtin

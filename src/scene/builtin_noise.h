@@ -36,9 +36,9 @@ class Random
 {
 public:
 	explicit Random(uint32_t seed) : state_(mixBits(seed)) {}
-	float next() { return unitFloat(mixBits(state_ += 0x9e3779b9u)); }        // [0, 1)
-	float next(float low, float high) { return low + (high - low) * next(); } // [low, high)
-	vec3 direction();                                                         // unit length, uniform over the sphere
+	float next() { return unitFloat(mixBits(state_ += 0x9e3779b9u)); }         // [0, 1)
+	float next(float low, float high) { return low + (high - low) * next(); }  // [low, high)
+	vec3 direction();                                                          // unit length, uniform over the sphere
 
 private:
 	uint32_t state_;
@@ -86,11 +86,11 @@ float tileableNoise(vec2 uv, int cells, int octaves, uint32_t seed);
 // Cells around jittered points, tileable over the unit square.
 struct CellPoint
 {
-	float nearest = 0;      // distance to the nearest point, in cells
-	float border = 0;       // distance to the border with the neighbouring cell, in cells
-	uint32_t cell_hash = 0; // of the nearest point's cell
-	vec2 offset = { 0, 0 }; // from the nearest point, in cells
+	float nearest = 0;       // distance to the nearest point, in cells
+	float border = 0;        // distance to the border with the neighbouring cell, in cells
+	uint32_t cell_hash = 0;  // of the nearest point's cell
+	vec2 offset = { 0, 0 };  // from the nearest point, in cells
 };
 CellPoint tileableCells(vec2 uv, int cells, uint32_t seed);
 
-} // namespace tessera::builtin
+}  // namespace tessera::builtin

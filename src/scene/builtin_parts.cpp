@@ -64,7 +64,7 @@ Image colorImage(std::string name, uint32_t width, uint32_t height, const std::f
 
 struct CubeFace
 {
-	vec3 right, up, out; // right x up = out
+	vec3 right, up, out;  // right x up = out
 };
 
 static constexpr CubeFace kFaces[6] = {
@@ -190,6 +190,7 @@ FileCamera lookAtCamera(dvec3 eye, dvec3 target, double fov_degrees)
 	camera.name = "overview";
 	camera.world = dmat4(dvec4(right, 0), dvec4(up, 0), dvec4(back, 0), dvec4(eye, 1));
 	camera.fov_y_rad = fov_degrees * (3.141592653589793 / 180);
+	camera.near_world = 0.01;
 	return camera;
 }
 
@@ -202,4 +203,4 @@ dmat4 rotation(dvec3 axis, double turns)
 				 dvec4(t.x * axis.z + s * axis.y, t.y * axis.z - s * axis.x, c + t.z * axis.z, 0), dvec4(0, 0, 0, 1));
 }
 
-} // namespace tessera::builtin
+}  // namespace tessera::builtin

@@ -13,7 +13,7 @@ namespace tessera::builtin
 struct HeightField
 {
 	uint32_t width = 0, height = 0;
-	std::vector<float> values; // width * height
+	std::vector<float> values;  // width * height
 
 	HeightField(uint32_t w, uint32_t h) : width(w), height(h), values(size_t(w) * h) {}
 	float& at(uint32_t x, uint32_t y) { return values[size_t(y) * width + x]; }
@@ -41,8 +41,8 @@ Image colorImage(std::string name, uint32_t width, uint32_t height, const std::f
 
 struct CubeAtlas
 {
-	uint32_t cell = 0;   // texels along a cell, gutters included
-	uint32_t gutter = 0; // texels on each side
+	uint32_t cell = 0;    // texels along a cell, gutters included
+	uint32_t gutter = 0;  // texels on each side
 
 	uint32_t width() const { return 3 * cell; }
 	uint32_t height() const { return 2 * cell; }
@@ -74,10 +74,10 @@ Material displacedMaterial(std::string name, uint32_t color_texture, uint32_t he
 // Appends a mesh of these primitives; returns its index.
 uint32_t addMesh(ImportedScene& scene, std::string name, std::vector<Primitive> primitives);
 
-// A perspective camera at `eye` that looks at `target`, +y up; vertical field of view in turns of a full circle.
+// A perspective camera at `eye` that looks at `target`, +y up; vertical field of view in degrees; near distance 0.01.
 FileCamera lookAtCamera(dvec3 eye, dvec3 target, double fov_degrees);
 
 // Turn about a unit axis by `turns`, as a matrix.
 dmat4 rotation(dvec3 axis, double turns);
 
-} // namespace tessera::builtin
+}  // namespace tessera::builtin

@@ -16,8 +16,8 @@ static constexpr CubeAtlas kMoonAtlas = { 384, 16 };
 
 struct Crater
 {
-	vec3 center;  // unit length
-	float radius; // of the rim, in radii of the moon
+	vec3 center;   // unit length
+	float radius;  // of the rim, in radii of the moon
 };
 
 // Oldest first: large ones are old.
@@ -43,7 +43,7 @@ static float cratered(float height, float d, float radius)
 		return height;
 	const float depth = 0.20f * radius / (1.0f + 2.5f * radius);
 	const float blanket = smoothStep(2.2f, 0.95f, d);
-	const float rim = 0.38f * depth * blanket * blanket;
+	const float rim = 0.50f * depth * blanket * blanket * blanket;
 	if (d >= 1.0f)
 		return height + rim;
 	// Inside, the older ground is mostly gone. Larger bowls have flat floors.
@@ -54,7 +54,7 @@ static float cratered(float height, float d, float radius)
 static float moonHeight(vec3 p, const std::vector<const Crater*>& craters)
 {
 	const float rough = fractalNoise(p * 9.0f, 5, 5);
-	const vec3 jagged = p + 0.012f * vec3(gradientNoise(p * 17.0f, 6), gradientNoise(p * 17.0f, 7), gradientNoise(p * 17.0f, 8));
+	const vec3 jagged = p + 0.006f * vec3(gradientNoise(p * 17.0f, 6), gradientNoise(p * 17.0f, 7), gradientNoise(p * 17.0f, 8));
 	float height = 0.020f * fractalNoise(p * 2.2f, 4, 4) + 0.004f * rough;
 	for (const Crater* crater : craters)
 	{
@@ -176,12 +176,37 @@ static dmat4 boulderPlacement(Random& random, dvec3 place, double size)
 {
 	const dvec3 axis = glm::normalize(dvec3(random.direction()));
 	const double turns = random.next();
-	const dvec3 stretch = size * dvec3{ 1.0, random.next(0.65f, 0.95f), random.next(0.8f, 1.1f) }; // braces: drawn in this order
+	const dvec3 stretch = size * dvec3{ 1.0, random.next(0.65f, 0.95f), random.next(0.8f, 1.1f) };  // braces: drawn in this order
 	dmat4 world = rotation(axis, turns);
 	for (int column = 0; column < 3; ++column)
 		world[column] *= stretch[column];
 	world[3] = dvec4(place, 1);
 	return world;
+}
+
+// Sand with ripples under a field of `half` to each side.
+static void addSand(ImportedScene& scene, float half)
+{
+	constexpr uint32_t kSize = 512;
+	HeightField heights(kSize, kSize);
+	forEachTexel(kSize, kSize, [&](uint32_t x, uint32_t y) {
+		const vec2 uv = vec2(float(x) + 0.5f, float(y) + 0.5f) / float(kSize);
+		const float bend = 0.20f * tileableNoise(uv, 3, 3, 81);
+		const float crest = float(sineOfTurns(double(9.0f * (uv.y + bend)) + double(uv.x)));
+		heights.at(x, y) = 0.16f * crest + tileableNoise(uv, 4, 4, 82) + 0.10f * tileableNoise(uv, 60, 3, 83);
+	});
+	heights.normalize();
+	Image color = colorImage("sand color", kSize, kSize, [&](uint32_t x, uint32_t y) {
+		return glm::mix(vec3(0.50f, 0.40f, 0.29f), vec3(0.74f, 0.63f, 0.47f), heights.at(x, y));
+	});
+	const uint32_t color_texture = addTexture(scene, std::move(color), Wrap::Repeat, Wrap::Repeat);
+	const uint32_t height_texture = addTexture(scene, heightImage("sand height", heights), Wrap::Repeat, Wrap::Repeat);
+	scene.materials.push_back(displacedMaterial("sand", color_texture, height_texture, 0.35f, -0.2f, 0.95f));
+	Primitive ground;
+	const float tiles = half / 3.0f;
+	addGrid(ground, { -half, 0, half }, { 2 * half, 0, 0 }, { 0, 0, -2 * half }, 24, 24, { 0, tiles }, { tiles, 0 });
+	ground.material = uint32_t(scene.materials.size() - 1);
+	scene.instances.push_back({ addMesh(scene, "sand", { std::move(ground) }), dmat4(1) });
 }
 
 ImportedScene makeInstances(uint32_t count)
@@ -198,10 +223,11 @@ ImportedScene makeInstances(uint32_t count)
 		const double z = double(i / side) - 0.5 * (side - 1) + 0.5 * random.next(-1, 1);
 		const double chance = random.next();
 		const double size = 0.28 + 0.42 * chance * chance * chance;
-		scene.instances.push_back({ mesh, boulderPlacement(random, { x, 0.45 * size, z }, size) });
+		scene.instances.push_back({ mesh, boulderPlacement(random, { x, 0.30 * size, z }, size) });
 	}
 	const double half = 0.5 * side;
-	scene.cameras.push_back(lookAtCamera({ 0.25 * half, 1.2 + 0.16 * half, half + 2.0 }, { 0, -0.02 * half, 0.1 * half }, 50));
+	addSand(scene, float(half) + 4);
+	scene.cameras.push_back(lookAtCamera({ 0.25 * half, 1.2 + 0.16 * half, half + 2.0 }, { 0, -0.12 * half, 0.1 * half }, 50));
 	return scene;
 }
 
@@ -239,4 +265,4 @@ ImportedScene makeShowcase(uint32_t count)
 	return scene;
 }
 
-} // namespace tessera::builtin
+}  // namespace tessera::builtin

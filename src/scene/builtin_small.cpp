@@ -68,4 +68,4 @@ ImportedScene makeMaterials(uint32_t)
 	return scene;
 }
 
-} // namespace tessera::builtin
+}  // namespace tessera::builtin

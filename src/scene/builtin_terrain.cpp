@@ -9,35 +9,37 @@
 namespace tessera::builtin
 {
 
-static constexpr uint32_t kTexels = 2048;
-static constexpr float kSide = 10;     // mesh units
-static constexpr float kRelief = 2.6f; // mesh units from the lake to the highest peak
-static constexpr float kLake = 0.10f;  // height of the lake's surface before normalising
+static constexpr uint32_t kTexels = 1536;
+static constexpr float kSide = 10;      // mesh units
+static constexpr float kRelief = 2.6f;  // mesh units from the lake to the highest peak
+static constexpr float kLake = 0.10f;   // height of the lake's surface before normalising
 
 // Height at uv within the square, 0..1 or so.
 static float groundHeight(vec2 uv)
 {
-	const vec2 p = uv * 5.0f + vec2(2.7f, 8.1f);
-	const vec2 push = { valueNoiseWithGradient(p * 0.8f, 3).x, valueNoiseWithGradient(p * 0.8f, 4).x };
-	const float worn = 0.5f + 0.5f * erodedNoise(p + 0.25f * push, 11, 17);
-	// A valley runs through, from the near left to the far right.
+	const vec2 p = uv * 4.0f + vec2(2.7f, 8.1f);
+	const vec2 push = { valueNoiseWithGradient(p * 0.9f, 3).x, valueNoiseWithGradient(p * 0.9f, 4).x };
+	const vec2 q = p + 0.30f * push;
+	const float worn = 0.5f + 0.5f * erodedNoise(q, 11, 17);
+	const float crests = ridgedNoise(vec3(q * 0.9f, 0.37f), 8, 19);
+	// A valley runs through and ends before mountains at the far side.
 	const float middle = 0.46f + 0.20f * (uv.y - 0.5f) + 0.09f * valueNoiseWithGradient(uv * vec2(1.0f, 4.0f), 5).x;
-	const float aside = (uv.x - middle) * (uv.x - middle);
-	const float walls = smoothStep(0.0f, 0.11f, aside);
-	return worn * (0.30f + 0.95f * walls) + 0.22f * walls * worn * worn - 0.07f;
+	const float aside = smoothStep(0.0f, 0.12f, (uv.x - middle) * (uv.x - middle));
+	const float walls = std::max(aside, 0.85f * smoothStep(0.20f, 0.02f, uv.y));
+	return worn * (0.28f + 0.34f * walls) + crests * (0.05f + 0.72f * walls) - 0.06f;
 }
 
 static vec3 groundColor(vec2 uv, float height, float steepness)
 {
 	const vec3 at = { uv * 40.0f, 0.5f };
 	const float mottle = fractalNoise(at, 5, 71);
-	vec3 grass = glm::mix(vec3(0.30f, 0.40f, 0.15f), vec3(0.20f, 0.31f, 0.12f), smoothStep(-0.4f, 0.4f, mottle));
+	vec3 grass = glm::mix(vec3(0.33f, 0.38f, 0.20f), vec3(0.22f, 0.29f, 0.15f), smoothStep(-0.4f, 0.4f, mottle));
 	grass = glm::mix(grass, vec3(0.48f, 0.45f, 0.25f), smoothStep(0.28f, 0.50f, height + 0.10f * mottle));
 	const vec3 rock = glm::mix(vec3(0.36f, 0.33f, 0.31f), vec3(0.52f, 0.48f, 0.44f), 0.5f + 0.8f * mottle);
-	vec3 color = glm::mix(grass, rock, smoothStep(0.75f, 1.05f, steepness + 0.75f * height + 0.12f * mottle));
-	const float snow = smoothStep(0.52f, 0.62f, height + 0.05f * mottle) * smoothStep(1.55f, 0.95f, steepness);
-	color = glm::mix(color, vec3(0.93f, 0.95f, 0.98f), snow);
-	return glm::mix(vec3(0.62f, 0.56f, 0.42f), color, smoothStep(0.004f, 0.016f, height));
+	vec3 color = glm::mix(grass, rock, smoothStep(0.95f, 1.45f, steepness + 0.9f * height + 0.25f * mottle));
+	const float snow = smoothStep(0.46f, 0.60f, height + 0.08f * mottle) * smoothStep(2.0f, 1.2f, steepness);
+	color = glm::mix(color, vec3(0.88f, 0.91f, 0.94f), snow);
+	return glm::mix(vec3(0.62f, 0.56f, 0.42f), color, smoothStep(0.002f, 0.009f, height));
 }
 
 ImportedScene makeTerrain(uint32_t)
@@ -66,8 +68,8 @@ ImportedScene makeTerrain(uint32_t)
 	// Top of the map is far away (-z).
 	addGrid(grid, { -kSide / 2, 0, kSide / 2 }, { kSide, 0, 0 }, { 0, 0, -kSide }, 32, 32, { 0, 1 }, { 1, 0 });
 	scene.instances.push_back({ addMesh(scene, "terrain", { std::move(grid) }), dmat4(1) });
-	scene.cameras.push_back(lookAtCamera({ -0.8, 2.3, 6.2 }, { 0.1, 0.75, 0 }, 48));
+	scene.cameras.push_back(lookAtCamera({ -0.1, 1.55, 4.6 }, { 0.15, 0.85, 0 }, 52));
 	return scene;
 }
 
-} // namespace tessera::builtin
+}  // namespace tessera::builtin
