@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
+#include <unordered_map>
 
 namespace tessera
 {
@@ -21,10 +21,7 @@ public:
 	MaterialBuilder(const ImportedScene& imported, BuiltScene& scene, MaterialUses& uses) : imported_(imported), scene_(scene), uses_(uses)
 	{
 		for (const Material& material : imported.materials)
-		{
 			addMaterial(material);
-			displaces_.push_back(displaces(material));
-		}
 		used_.resize(imported.materials.size());
 	}
 
@@ -33,7 +30,7 @@ public:
 	{
 		const uint32_t index = primitive.material;
 		const Material& material = imported_.materials[index];
-		const bool wants_height = displaces_[index];
+		const bool wants_height = displaces(index);
 		const bool wants_color = material.base_color_texture.has_value();
 		const bool height = wants_height && hasCoordinates(primitive, material.displacement->height.texcoord);
 		const bool color = wants_color && hasCoordinates(primitive, material.base_color_texture->texcoord);
@@ -64,13 +61,16 @@ private:
 		return set < primitive.texcoords.size() && !primitive.texcoords[set].empty();
 	}
 
-	bool displaces(const Material& material) const
+	// Asked only of materials that something uses: others may have images that were not decoded.
+	bool displaces(uint32_t index)
 	{
-		if (!material.displacement)
+		if (!imported_.materials[index].displacement)
 			return false;
-		const Displacement& displacement = *material.displacement;
-		const Image& image = imported_.images[imported_.textures[displacement.height.texture].image];
-		return !displacesByNothing(image, displacement.factor, displacement.offset);
+		const auto [entry, is_new] = displaces_.try_emplace(index, false);
+		const Displacement& displacement = *imported_.materials[index].displacement;
+		if (is_new)
+			entry->second = !displacesByNothing(imported_.images[imported_.textures[displacement.height.texture].image], displacement.factor, displacement.offset);
+		return entry->second;
 	}
 
 	void warnMissing(const Mesh& mesh, const Material& material, const char* what, uint32_t set)
@@ -166,7 +166,8 @@ private:
 	const ImportedScene& imported_;
 	BuiltScene& scene_;
 	MaterialUses& uses_;
-	std::vector<bool> displaces_, used_;  // per imported material
+	std::unordered_map<uint32_t, bool> displaces_;  // by imported material, once asked
+	std::vector<bool> used_;                        // per imported material
 	std::vector<Copy> copies_;
 	std::vector<uint32_t> height_images_;  // parallel to the scene's height maps
 	std::vector<uint32_t> color_images_;   // parallel to its colour textures

@@ -108,8 +108,7 @@ TEST(sceneBuild, trianglesThatShareAnEdgeGetTheSamePointsToTheBit)
 
 TEST(sceneBuild, withoutSeamEdgesTheSurfaceCracks)
 {
-	for (const ImportedScene& imported :
-		 { cubeScene(2), twoMapsScene(), halfDisplacedScene(), nonManifoldScene(), transformedScene() })
+	for (const ImportedScene& imported : { cubeScene(2), twoMapsScene(), halfDisplacedScene(), nonManifoldScene(), transformedScene() })
 	{
 		BuiltScene scene = built(imported);
 		ASSERT_GT(scene.traits.seam_edges, 0u);
