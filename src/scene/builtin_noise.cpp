@@ -47,26 +47,30 @@ static float mixed(float a, float b, float t)
 }
 
 // The random gradient of a lattice point, times the way from there.
-static float gradientTerm(uint32_t hash, float x, float y, float z)
+static inline float gradientTerm(uint32_t x_y_z, float x, float y, float z)
 {
 	constexpr float kScale = 1.0f / 511.5f;
-	const float gx = float(hash & 1023u) * kScale - 1.0f;
-	const float gy = float((hash >> 10) & 1023u) * kScale - 1.0f;
-	const float gz = float((hash >> 20) & 1023u) * kScale - 1.0f;
+	const uint32_t hash = mixBits(x_y_z);
+	const float gx = float(int(hash & 1023u)) * kScale - 1.0f;
+	const float gy = float(int((hash >> 10) & 1023u)) * kScale - 1.0f;
+	const float gz = float(int((hash >> 20) & 1023u)) * kScale - 1.0f;
 	return gx * x + gy * y + gz * z;
 }
 
 float gradientNoise(vec3 p, uint32_t seed)
 {
-	const ivec3 cell = { floorToInt(p.x), floorToInt(p.y), floorToInt(p.z) };
-	const vec3 f = p - vec3(cell);
-	const auto corner = [&](int x, int y, int z) {
-		return gradientTerm(hashLattice(cell + ivec3(x, y, z), seed), f.x - float(x), f.y - float(y), f.z - float(z));
-	};
-	const float u = fade(f.x), v = fade(f.y), w = fade(f.z);
-	const float near = mixed(mixed(corner(0, 0, 0), corner(1, 0, 0), u), mixed(corner(0, 1, 0), corner(1, 1, 0), u), v);
-	const float far = mixed(mixed(corner(0, 0, 1), corner(1, 0, 1), u), mixed(corner(0, 1, 1), corner(1, 1, 1), u), v);
-	return 1.2f * mixed(near, far, w);
+	const int x = floorToInt(p.x), y = floorToInt(p.y), z = floorToInt(p.z);
+	const float x0 = p.x - float(x), y0 = p.y - float(y), z0 = p.z - float(z);
+	const float x1 = x0 - 1.0f, y1 = y0 - 1.0f, z1 = z0 - 1.0f;
+	// hashLattice of the eight corners, sharing its products.
+	const uint32_t hx0 = uint32_t(x) * kHashX, hy0 = uint32_t(y) * kHashY, hz0 = (uint32_t(z) * kHashZ) ^ (seed * kHashSeed);
+	const uint32_t hx1 = uint32_t(x + 1) * kHashX, hy1 = uint32_t(y + 1) * kHashY, hz1 = (uint32_t(z + 1) * kHashZ) ^ (seed * kHashSeed);
+	const float u = fade(x0), v = fade(y0), w = fade(z0);
+	const float a = mixed(gradientTerm(hx0 ^ hy0 ^ hz0, x0, y0, z0), gradientTerm(hx1 ^ hy0 ^ hz0, x1, y0, z0), u);
+	const float b = mixed(gradientTerm(hx0 ^ hy1 ^ hz0, x0, y1, z0), gradientTerm(hx1 ^ hy1 ^ hz0, x1, y1, z0), u);
+	const float c = mixed(gradientTerm(hx0 ^ hy0 ^ hz1, x0, y0, z1), gradientTerm(hx1 ^ hy0 ^ hz1, x1, y0, z1), u);
+	const float d = mixed(gradientTerm(hx0 ^ hy1 ^ hz1, x0, y1, z1), gradientTerm(hx1 ^ hy1 ^ hz1, x1, y1, z1), u);
+	return 1.2f * mixed(mixed(a, b, v), mixed(c, d, v), w);
 }
 
 static int wrapped(int i, int period)

@@ -20,9 +20,11 @@ constexpr uint32_t mixBits(uint32_t x)
 	return x;
 }
 
+inline constexpr uint32_t kHashX = 0x8da6b343u, kHashY = 0xd8163841u, kHashZ = 0xcb1ab31fu, kHashSeed = 0x9e3779b9u;
+
 constexpr uint32_t hashLattice(ivec3 cell, uint32_t seed)
 {
-	return mixBits(uint32_t(cell.x) * 0x8da6b343u ^ uint32_t(cell.y) * 0xd8163841u ^ uint32_t(cell.z) * 0xcb1ab31fu ^ seed * 0x9e3779b9u);
+	return mixBits((uint32_t(cell.x) * kHashX) ^ (uint32_t(cell.y) * kHashY) ^ (uint32_t(cell.z) * kHashZ) ^ (seed * kHashSeed));
 }
 
 // The top 24 bits of a hash as a number in [0, 1).
