@@ -42,8 +42,8 @@ public:
 	explicit HeightRanges(const HeightMapData& map);
 
 	// Hull of every texel, of every mip, that a bilinear read anywhere in [low, high] (texture coordinates, any magnitude) touches:
-	// wraps are followed, the float rounding of interpolated coordinates is allowed for. Wider than exact by less than a cell of
-	// an eighth of the footprint on each side. A few dozen cell reads per mip.
+	// wraps are followed, the float rounding of interpolated coordinates is allowed for. A footprint of up to 8 x 8 texels of a mip
+	// is read exactly; a larger one is rounded outwards to cells of at most half its size. A few dozen reads per mip.
 	Interval over(vec2 low, vec2 high) const;
 
 	// The displacement interval of `heights`, rounding of the evaluation included. Mesh units at scale 1.

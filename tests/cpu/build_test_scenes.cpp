@@ -309,6 +309,32 @@ ImportedScene coarseSphereScene()
 	return scene;
 }
 
+ImportedScene soupScene(uint32_t seed, uint32_t triangles)
+{
+	ImportedScene scene;
+	std::mt19937 random(seed);
+	const auto unit = [&] {
+		return float(random() % 1000) / 1000;
+	};
+	std::vector<Primitive> primitives(4);
+	for (Primitive& primitive : primitives)
+		primitive.material = uint32_t(scene.materials.size()) == 2
+								 ? addPlain(scene, "plain")
+								 : addDisplaced(scene, noiseImage(17, 9, TexelFormat::U16, seed), 0.3f, unit() - 0.5f);
+	for (uint32_t i = 0; i < 3 * triangles; ++i)
+	{
+		Primitive& primitive = primitives[i / 3 % primitives.size()];
+		const vec3 point(float(random() % 3), float(random() % 2), float(random() % 2));
+		// Few different normals and coordinates, so that some agree.
+		const vec3 normal = random() % 5 == 0 ? vec3(0) : random() % 2 ? vec3(0, 0, 1) : glm::normalize(vec3(unit(), unit(), unit() + 0.01f));
+		addVertex(primitive, point, normal, random() % 2 ? vec2(point) : vec2(unit(), unit()) * 3.0f);
+		primitive.indices.push_back(uint32_t(primitive.indices.size()));
+	}
+	primitives[1].normals.clear();
+	addPlacedMesh(scene, std::move(primitives));
+	return scene;
+}
+
 std::vector<NamedScene> allScenes()
 {
 	return {
@@ -323,6 +349,8 @@ std::vector<NamedScene> allScenes()
 		{ "touching cones", touchingConesScene() },
 		{ "texture transforms", transformedScene() },
 		{ "octahedron", coarseSphereScene() },
+		{ "soup", soupScene(1, 40) },
+		{ "thin soup", soupScene(2, 12) },
 	};
 }
 

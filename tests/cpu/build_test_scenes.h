@@ -40,6 +40,8 @@ ImportedScene touchingConesScene();  // two cones that share their tip and nothi
 ImportedScene transformedScene();    // one map through two texture transforms
 ImportedScene coarseSphereScene();   // an octahedron: directions turn by a right angle in a triangle
 
+ImportedScene soupScene(uint32_t seed, uint32_t triangles);  // random triangles over few points, three materials, everything at odds
+
 struct NamedScene
 {
 	std::string name;
