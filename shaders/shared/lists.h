@@ -20,7 +20,7 @@ struct ListHead
 };
 SHARED_LAYOUT(ListHead, 256, unused, 28)
 
-// The lists, in the order of their heads. Names (the promise of the stats) in src/frame/lists.cpp.
+// The lists, in the order of their heads. Their names, a promise of the stats, are in src/frame/lists.cpp.
 #define LIST_CLUSTER_GROUPS 0u
 #define LIST_VISIBLE_CLUSTERS 1u
 #define LIST_FULL_CLUSTERS 2u
@@ -41,10 +41,11 @@ struct FrameCounts
 	uint micro_low;         // micro-triangles of part triangles, 64 bits in two words
 	uint micro_high;
 	uint full_cluster_triangles;
+	uint expanded_vertices;   // taken so far by expand_triangles
+	uint expanded_triangles;
 	uint split_count[MAX_SPLIT_LEVELS];  // split triangles appended per level; level 0 by cluster_classify
-	uint deepest_level_wanted;           // 1 + last level that had triangles to split
 };
-SHARED_LAYOUT(FrameCounts, 152, deepest_level_wanted, 148)
+SHARED_LAYOUT(FrameCounts, 156, split_count, 28)
 
 // An entry of cluster_groups: up to CLUSTER_GROUP_SIZE clusters of one instance.
 #define CLUSTER_GROUP_SIZE 64u

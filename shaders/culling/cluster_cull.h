@@ -1,0 +1,29 @@
+// Arguments of cluster_cull.
+#ifndef TESSERA_CULLING_CLUSTER_CULL_H
+#define TESSERA_CULLING_CLUSTER_CULL_H
+#include "shared/bounds.h"
+#include "shared/geometry.h"
+#include "shared/lists.h"
+
+SHARED_BEGIN
+
+struct ClusterCullArgs
+{
+	GPU_PTR(View) view;
+	GPU_PTR(InstanceRecord) instances;
+	GPU_PTR(ClusterRecord) clusters;
+	GPU_PTR(DisplacedBounds) cluster_bounds;  // 0 without culling
+	GPU_PTR(ListHead) heads;
+	GPU_PTR(FrameCounts) counts;
+	GPU_PTR(ClusterGroup) cluster_groups;
+	GPU_PTR(ClusterRef) visible_clusters;
+	GPU_PTR(uint) full_clusters;  // 0 when cluster_classify decides which clusters are full
+	uint cull_frustum;
+	uint cull_backface;
+	uint emit_full;  // 1: no factor can exceed 1, every visible cluster is full
+};
+SHARED_LAYOUT(ClusterCullArgs, 88, emit_full, 80)
+
+SHARED_END
+
+#endif

@@ -1,0 +1,57 @@
+// instance_classify: cull instances by their displaced bounds; cut what is left into groups of clusters.
+//
+//   in   instances        InstanceRecord[]
+//   in   mesh_bounds      DisplacedBounds[]    only with culling
+//   out  cluster_groups   ClusterGroup[]       up to CLUSTER_GROUP_SIZE clusters of one visible instance: to cluster_cull
+//
+// One thread takes one instance at a time. A frame drawn in several rounds (C2) takes every n-th group per round.
+// Host: src/pipeline/culling/instance_classify.cpp
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/features.glsl"
+#include "culling/instance_classify.h"
+#include "lib/lists.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Args { InstanceClassifyArgs args; };
+
+bool isVisible(InstanceRecord instance)
+{
+	if (!HAS_CULLING)
+		return true;
+	View view = args.view.at[0];
+	Box box = displacedBox(args.mesh_bounds.at[instance.mesh], view.displacement_scale);
+	return boxMayBeVisible(box, placementOf(instance, view), view);
+}
+
+void appendGroups(uint index, MeshRecord mesh)
+{
+	uint groups = (mesh.cluster_count + CLUSTER_GROUP_SIZE - 1u) / CLUSTER_GROUP_SIZE;
+	// The first group of this round: (instance + group) mod round_count == round.
+	uint offset = (args.round + args.round_count - index % args.round_count) % args.round_count;
+	uint taken = groups > offset ? (groups - offset + args.round_count - 1u) / args.round_count : 0u;
+	if (taken == 0u)
+		return;
+	uint slot = reserveEntries(args.heads, LIST_CLUSTER_GROUPS, taken);
+	uint capacity = args.heads.at[LIST_CLUSTER_GROUPS].capacity;
+	for (uint i = 0u; i < taken && slot + i < capacity; ++i)
+	{
+		uint first = (offset + i * args.round_count) * CLUSTER_GROUP_SIZE;
+		ClusterGroup group;
+		group.instance = index;
+		group.first_cluster = mesh.first_cluster + first;
+		group.cluster_count = min(mesh.cluster_count - first, CLUSTER_GROUP_SIZE);
+		args.cluster_groups.at[slot + i] = group;
+	}
+}
+
+void main()
+{
+	uint stride = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+	for (uint index = gl_GlobalInvocationID.x; index < args.instance_count; index += stride)
+	{
+		InstanceRecord instance = args.instances.at[index];
+		if (isVisible(instance))
+			appendGroups(index, args.meshes.at[instance.mesh]);
+	}
+}

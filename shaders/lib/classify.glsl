@@ -1,0 +1,46 @@
+// What becomes of a triangle: a part triangle when its factors fit the table, else a split triangle.
+#ifndef TESSERA_LIB_CLASSIFY
+#define TESSERA_LIB_CLASSIFY
+#include "shared/edge_factor.h"
+#include "shared/pattern.h"
+
+// A corner of a triangle being classified: its domain point, and its undisplaced position relative to the eye.
+struct ClassifiedCorner
+{
+	DomainPoint domain;
+	vec3 relative;
+};
+
+#define DECISION_SPLIT 0x1000u
+
+// Factors (or pieces per edge, with DECISION_SPLIT) of edges p-q, q-r, r-p: 4 bits each.
+uint decideTriangle(ClassifiedCorner p, ClassifiedCorner q, ClassifiedCorner r, View view, FactorRule rule)
+{
+	EdgeView edge_a = viewEdge(p.relative, q.relative, domainLength(p.domain, q.domain), view);
+	EdgeView edge_b = viewEdge(q.relative, r.relative, domainLength(q.domain, r.domain), view);
+	EdgeView edge_c = viewEdge(r.relative, p.relative, domainLength(r.domain, p.domain), view);
+	uint a = edgeFactor(edge_a, rule);
+	uint b = edgeFactor(edge_b, rule);
+	uint c = edgeFactor(edge_c, rule);
+	if (a != 0u && b != 0u && c != 0u)
+		return a | (b << 4) | (c << 8);
+	return edgePieces(edge_a, rule) | (edgePieces(edge_b, rule) << 4) | (edgePieces(edge_c, rule) << 8) | DECISION_SPLIT;
+}
+
+// The record of a decided triangle, corners turned into pattern order.
+DomainTriangle decidedTriangle(uint decision, DomainPoint p, DomainPoint q, DomainPoint r, uint visible_cluster, uint triangle)
+{
+	DomainPiece piece;
+	piece.c0 = p;
+	piece.c1 = q;
+	piece.c2 = r;
+	piece.visible_cluster = visible_cluster;
+	piece.triangle = triangle;
+	piece.a = decision & 15u;
+	piece.b = (decision >> 4) & 15u;
+	piece.c = (decision >> 8) & 15u;
+	piece.mirror = 0u;
+	return packTriangle(inPatternOrder(piece));
+}
+
+#endif

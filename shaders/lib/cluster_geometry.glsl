@@ -1,0 +1,23 @@
+// A full cluster: drawn as stored, its vertices displaced.
+#ifndef TESSERA_LIB_CLUSTER_GEOMETRY
+#define TESSERA_LIB_CLUSTER_GEOMETRY
+#include "shared/raster_inputs.h"
+
+vec4 clusterVertex(RasterInputs inputs, ClusterRecord cluster, InstanceRecord instance, uint vertex)
+{
+	View view = inputs.view.at[0];
+	Surface surface = inputs.surface.at[0];
+	Placement placement = placementOf(instance, view);
+	uint height_map = HAS_DISPLACEMENT ? surface.material_height_maps.at[cluster.material] : NO_INDEX;
+	SurfacePoint point = surfaceVertex(surface, cluster.first_vertex + vertex, height_map, placement, view);
+	return clipPosition(placed(placement, point.displaced), view);
+}
+
+uvec3 clusterTriangle(RasterInputs inputs, ClusterRecord cluster, InstanceRecord instance, uint triangle)
+{
+	uint base = inputs.surface.at[0].triangles.at[cluster.first_triangle + triangle];
+	uvec3 corners = uvec3(triangleVertex(base, 0u), triangleVertex(base, 1u), triangleVertex(base, 2u));
+	return HAS_MIRRORED_INSTANCES && instance.mirrored != 0u ? corners.yxz : corners;
+}
+
+#endif

@@ -1,0 +1,19 @@
+// What the scene and the options need: specialisation constants, so that the rest is not compiled in (DESIGN.md, C5).
+// Ids and reasons: src/plan/features.cpp.
+#ifndef TESSERA_LIB_FEATURES
+#define TESSERA_LIB_FEATURES
+
+layout(constant_id = 1) const bool HAS_DISPLACEMENT = true;
+layout(constant_id = 2) const bool HAS_SEAMS = true;
+layout(constant_id = 3) const bool HAS_TESSELLATION = true;
+layout(constant_id = 4) const bool HAS_COLOR_TEXTURES = true;
+layout(constant_id = 5) const bool HAS_VERTEX_COLORS = true;
+layout(constant_id = 6) const bool HAS_SMOOTH_NORMALS = true;
+layout(constant_id = 7) const bool HAS_CULLING = true;
+layout(constant_id = 8) const bool HAS_MIXED_SIDES = true;
+layout(constant_id = 9) const bool HAS_MIRRORED_INSTANCES = true;
+layout(constant_id = 10) const bool HAS_SINGLE_SIDED = true;
+layout(constant_id = 11) const bool IS_SHADED_VIEW = true;
+layout(constant_id = 12) const bool COUNTS_EXPANDED = true;
+
+#endif

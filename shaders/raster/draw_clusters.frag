@@ -1,0 +1,18 @@
+// draw_clusters: write the payload of the nearest triangle. Test: tests/gpu/raster_test.cpp
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_mesh_shader : require
+#include "lib/features.glsl"
+#include "raster/draw_clusters.h"
+#include "lib/sides.glsl"
+
+layout(push_constant, scalar) uniform Args { DrawClustersArgs args; };
+layout(location = 0) perprimitiveEXT flat in uint payload;
+layout(location = 0) out uint visible;
+
+void main()
+{
+	if (HAS_MIXED_SIDES && !gl_FrontFacing && isSingleSided(args.inputs, payload))
+		discard;
+	visible = payload;
+}

@@ -1,0 +1,121 @@
+// cluster_classify: decide, per visible cluster, what each triangle becomes.
+//
+//   in   visible_clusters   ClusterRef[]       from cluster_cull
+//   out  full_clusters      uint[]             indices of visible clusters whose factors are all 1: drawn as stored
+//   out  split_triangles    DomainTriangle[]   some factor exceeds the table: level 0 of triangle_split
+//   out  part_triangles     DomainTriangle[]   fits the table: to batch_parts
+//
+// One workgroup takes one cluster at a time; lanes stride over its vertices and triangles, so any workgroup size works.
+// Appends are gathered per workgroup: one atomic per list. `wanted` keeps counting past capacity; nothing is written there,
+// and nothing is drawn from this attempt then: the frame is counted again at a coarser rate (C2).
+// Host: src/pipeline/tessellation/cluster_classify.cpp   Test: tests/gpu/tessellation_test.cpp
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/features.glsl"
+#include "tessellation/cluster_classify.h"
+#include "lib/classify.glsl"
+#include "lib/full_clusters.glsl"
+
+layout(local_size_x_id = 0) in;
+layout(push_constant, scalar) uniform Args { ClusterClassifyArgs args; };
+
+shared vec3 relative[128];
+shared uint decisions[128];
+shared uint part_count;
+shared uint split_count;
+shared uint tessellated;
+shared uint first_part;
+shared uint first_split;
+
+const uint ALL_ONE = 0x111u;
+
+void placeVertices(ClusterRecord cluster, Placement placement)
+{
+	for (uint v = gl_LocalInvocationIndex; v < clusterVertices(cluster); v += gl_WorkGroupSize.x)
+		relative[v] = placed(placement, args.positions.at[cluster.first_vertex + v]);
+}
+
+ClassifiedCorner cornerOf(uint triangle, uint corner)
+{
+	return ClassifiedCorner(domainCorner(corner), relative[triangleVertex(triangle, corner)]);
+}
+
+void decideTriangles(ClusterRecord cluster, View view)
+{
+	for (uint t = gl_LocalInvocationIndex; t < clusterTriangles(cluster); t += gl_WorkGroupSize.x)
+	{
+		uint triangle = args.triangles.at[cluster.first_triangle + t];
+		uint decision = decideTriangle(cornerOf(triangle, 0u), cornerOf(triangle, 1u), cornerOf(triangle, 2u), view, args.rule);
+		// The place in the workgroup's part of the list rides in the upper bits.
+		bool split = (decision & DECISION_SPLIT) != 0u;
+		uint place = split ? atomicAdd(split_count, 1u) : atomicAdd(part_count, 1u);
+		if (decision != ALL_ONE)
+			tessellated = 1u;
+		decisions[t] = decision | (place << 16);
+	}
+}
+
+void reserve(ClusterRecord cluster, uint index)
+{
+	if (tessellated == 0u)
+	{
+		uint slot = reserveEntries(args.heads, LIST_FULL_CLUSTERS, 1u);
+		if (slot < args.heads.at[LIST_FULL_CLUSTERS].capacity)
+			args.full_clusters.at[slot] = index;
+		countFullCluster(args.heads, args.counts, cluster);
+		return;
+	}
+	if (part_count > 0u)
+		first_part = reserveEntries(args.heads, LIST_PART_TRIANGLES, part_count);
+	if (split_count > 0u)
+	{
+		first_split = atomicAdd(args.counts.at[0].split_count[0], split_count);
+		atomicAdd(args.heads.at[LIST_SPLIT_TRIANGLES].wanted, split_count);
+	}
+}
+
+void writeTriangles(ClusterRecord cluster, uint index)
+{
+	uint part_capacity = args.heads.at[LIST_PART_TRIANGLES].capacity;
+	uint split_capacity = args.heads.at[LIST_SPLIT_TRIANGLES].capacity;
+	for (uint t = gl_LocalInvocationIndex; t < clusterTriangles(cluster); t += gl_WorkGroupSize.x)
+	{
+		uint decision = decisions[t] & 0xffffu;
+		uint place = decisions[t] >> 16;
+		DomainTriangle record = decidedTriangle(decision, domainCorner(0u), domainCorner(1u), domainCorner(2u), index, t);
+		if ((decision & DECISION_SPLIT) != 0u)
+		{
+			if (first_split + place < split_capacity)
+				args.split_triangles.at[first_split + place] = record;
+		}
+		else if (first_part + place < part_capacity)
+			args.part_triangles.at[first_part + place] = record;
+	}
+}
+
+void main()
+{
+	uint cluster_count = entriesOf(args.heads, LIST_VISIBLE_CLUSTERS);
+	for (uint index = gl_WorkGroupID.x; index < cluster_count; index += gl_NumWorkGroups.x)
+	{
+		ClusterRef ref = args.visible_clusters.at[index];
+		ClusterRecord cluster = args.clusters.at[ref.cluster];
+		View view = args.view.at[0];
+		if (gl_LocalInvocationIndex == 0u)
+		{
+			part_count = 0u;
+			split_count = 0u;
+			tessellated = 0u;
+		}
+		placeVertices(cluster, placementOf(args.instances.at[ref.instance], view));
+		barrier();
+		decideTriangles(cluster, view);
+		barrier();
+		if (gl_LocalInvocationIndex == 0u)
+			reserve(cluster, index);
+		barrier();
+		if (tessellated != 0u)
+			writeTriangles(cluster, index);
+		barrier();
+	}
+}

@@ -1,0 +1,80 @@
+// Every buffer and image that a plan keeps, by the name that passes use; scene arrays are uploaded when first kept.
+#pragma once
+#include "frame/lists.h"
+#include "frame/stats.h"
+#include "gpu/commands.h"
+#include "gpu/pipeline.h"
+#include "scene/camera.h"
+#include "tables/table.h"
+
+#include <map>
+
+namespace tessera
+{
+
+// Names and sizes of all resources, for the planner.
+std::span<const ResourceDesc> resourceDescs();
+
+class FrameResources
+{
+public:
+	static Result<std::unique_ptr<FrameResources>> create(Device& device, const BuiltScene& scene, const TessellationTable& table,
+	                                                      const PlanInput& input);
+
+	// Makes and fills what the plan keeps and does not exist yet.
+	Status prepare(const FramePlan& plan, const PlanInput& input);
+	Status writeView(const View& view, uint32_t round);
+
+	uint64_t address(std::string_view name) const;
+	const Buffer& buffer(std::string_view name) const;
+	const ImageResource& image(std::string_view name) const;
+	bool has(std::string_view name) const { return buffers_.count(std::string(name)) > 0; }
+	uint64_t headOffset(std::string_view list) const;
+	uint32_t capacity(std::string_view list) const;
+	uint32_t round() const { return round_; }
+	uint32_t tableSize() const { return table_.max_edge_segments; }
+	const BindlessSet& bindless() const { return *bindless_; }
+	BindlessSet& bindless() { return *bindless_; }
+	CommandRecorder& commands() { return *commands_; }
+	MemoryStats memory() const;
+
+	// Heads and counts of the last submitted frame; valid after readCounts was recorded and waited for.
+	void recordCountsReadback(VkCommandBuffer commands) const;
+	ListHead head(uint32_t list) const;
+	FrameCounts counts() const;
+	// Copies a buffer to the host, waiting for it.
+	Result<std::vector<std::byte>> read(std::string_view name, uint64_t bytes);
+
+private:
+	FrameResources(Device& device, const BuiltScene& scene, const TessellationTable& table) : device_(device), scene_(scene), table_(table) {}
+	Status make(std::string_view name, const PlanInput& input);
+	Status upload(std::string_view name, std::span<const std::byte> bytes);
+	Status allocate(std::string_view name, uint64_t bytes);
+	Status makeHeads();
+	Status makeSurface(const FramePlan& plan);
+	Status makeHeightMaps();
+	Status makeTextures();
+	Status makeImage(const ImageDesc& desc, uint32_t binding);
+	bool makesSceneArray(std::string_view name, Status& status);
+
+	Device& device_;
+	const BuiltScene& scene_;
+	const TessellationTable& table_;
+	std::unique_ptr<CommandRecorder> commands_;
+	std::unique_ptr<BindlessSet> bindless_;
+	std::map<std::string, Buffer> buffers_;
+	std::map<std::string, ImageResource> images_;
+	std::vector<ImageResource> textures_;
+	std::vector<VkSampler> samplers_;
+	std::vector<Buffer> height_texels_;
+	Buffer readback_;
+	std::array<uint32_t, LIST_COUNT> capacities_ = {};
+	uint32_t round_ = 0;
+
+public:
+	~FrameResources();
+	FrameResources(const FrameResources&) = delete;
+	FrameResources& operator=(const FrameResources&) = delete;
+};
+
+}  // namespace tessera

@@ -1,0 +1,193 @@
+#include "frame/pass_runner.h"
+
+#include "base/check.h"
+
+#include <algorithm>
+
+namespace tessera
+{
+
+namespace
+{
+
+constexpr uint32_t kMostSteps = 128;
+
+struct StageAccess
+{
+	VkPipelineStageFlags2 stage;
+	VkAccessFlags2 access;
+};
+
+StageAccess stageAccessOf(Access access)
+{
+	constexpr VkAccessFlags2 kRead = VK_ACCESS_2_SHADER_READ_BIT;
+	constexpr VkAccessFlags2 kWrite = VK_ACCESS_2_SHADER_WRITE_BIT;
+	switch (access)
+	{
+	case Access::ComputeRead: return { VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, kRead };
+	case Access::ComputeWrite: return { VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, kRead | kWrite };
+	case Access::Indirect: return { VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT };
+	case Access::MeshRead: return { VK_PIPELINE_STAGE_2_MESH_SHADER_BIT_EXT, kRead };
+	case Access::VertexRead: return { VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT, kRead };
+	case Access::IndexRead: return { VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT };
+	case Access::FragmentRead: return { VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, kRead };
+	case Access::Color:
+		return { VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT };
+	case Access::Depth:
+		return { VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+			     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT };
+	case Access::CopyRead: return { VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT };
+	case Access::CopyWrite: return { VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT };
+	}
+	return {};
+}
+
+StageAccess stageAccessOf(AccessSet set)
+{
+	StageAccess all = {};
+	for (uint32_t i = 0; i <= static_cast<uint32_t>(Access::CopyWrite); ++i)
+		if (set.has(static_cast<Access>(i)))
+		{
+			const StageAccess one = stageAccessOf(static_cast<Access>(i));
+			all.stage |= one.stage;
+			all.access |= one.access;
+		}
+	return all;
+}
+
+void recordBarrier(VkCommandBuffer commands, const PlanStep& step)
+{
+	if (step.wait_for.empty())
+		return;
+	const StageAccess from = stageAccessOf(step.wait_for), to = stageAccessOf(step.then);
+	VkMemoryBarrier2 barrier = { VK_STRUCTURE_TYPE_MEMORY_BARRIER_2 };
+	barrier.srcStageMask = from.stage;
+	barrier.srcAccessMask = from.access;
+	barrier.dstStageMask = to.stage;
+	barrier.dstAccessMask = to.access;
+	VkDependencyInfo info = { VK_STRUCTURE_TYPE_DEPENDENCY_INFO };
+	info.memoryBarrierCount = 1;
+	info.pMemoryBarriers = &barrier;
+	vkCmdPipelineBarrier2(commands, &info);
+}
+
+// Threads per workgroup of the shaders that take it as constant 0.
+uint32_t workgroupThreads(const Device& device, const PassDesc& pass)
+{
+	if (pass.shaders.front().ends_with(".mesh"))
+		return device.limits.mesh_workgroup_threads;
+	return device.is_cpu ? 32 : pass.name == "triangle_split" ? 32 : 64;
+}
+
+VkCullModeFlags cullMode(const SceneTraits& scene)
+{
+	return scene.has_double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<PassRunner>> PassRunner::create(Device& device, FrameResources& resources)
+{
+	std::unique_ptr<PassRunner> runner(new PassRunner(device, resources));
+	VkQueryPoolCreateInfo info = { VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO };
+	info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+	info.queryCount = kMostSteps + 1;
+	VK_TRY(vkCreateQueryPool(device.handle, &info, nullptr, &runner->queries_), "creating the timers");
+	return runner;
+}
+
+PassRunner::~PassRunner()
+{
+	vkDestroyQueryPool(device_.handle, queries_, nullptr);
+}
+
+Status PassRunner::makePipeline(const PassDesc& pass, const Constants& constants, const PlanInput& input)
+{
+	setWorkingOn(fmt::format("pipeline of pass {}", pass.name));
+	std::vector<Shader> shaders;
+	for (std::string_view name : pass.shaders)
+	{
+		TRY_ASSIGN(Shader shader, loadShader(name));
+		shaders.push_back(std::move(shader));
+	}
+	const VkPipelineLayout layout = resources_.bindless().layout();
+	if (shaders.size() == 1)
+	{
+		TRY_ASSIGN(pipelines_[pass.name], makeComputePipeline(device_, layout, shaders.front(), constants));
+		return {};
+	}
+	DrawState state;
+	state.cull = cullMode(input.scene);
+	TRY_ASSIGN(pipelines_[pass.name], makeDrawPipeline(device_, layout, shaders, constants, state));
+	return {};
+}
+
+Status PassRunner::preparePipelines(const FramePlan& plan, const PlanInput& input)
+{
+	Constants constants;
+	for (const Feature& feature : plan.features)
+		constants[feature.constant_id] = feature.on ? 1 : 0;
+	for (const PlanStep& step : plan.steps)
+		if (!pipelines_.count(step.pass->name))
+		{
+			constants[0] = workgroupThreads(device_, *step.pass);
+			TRY(makePipeline(*step.pass, constants, input));
+		}
+	return {};
+}
+
+void PassRunner::stamp(uint32_t index)
+{
+	if (device_.limits.timestamp_ns > 0)
+		vkCmdWriteTimestamp2(resources_.commands().buffer(), VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, index);
+}
+
+Status PassRunner::record(const FramePlan& plan, const PlanInput& input)
+{
+	CHECK(plan.steps.size() <= kMostSteps, "{} steps", plan.steps.size());
+	const VkCommandBuffer commands = resources_.commands().buffer();
+	vkResetQueryPool(device_.handle, queries_, 0, kMostSteps + 1);
+	const VkDescriptorSet set = resources_.bindless().set();
+	for (VkPipelineBindPoint point : { VK_PIPELINE_BIND_POINT_COMPUTE, VK_PIPELINE_BIND_POINT_GRAPHICS })
+		vkCmdBindDescriptorSets(commands, point, resources_.bindless().layout(), 0, 1, &set, 0, nullptr);
+	step_count_ = plan.steps.size();
+	stamp(0);
+	for (size_t i = 0; i < plan.steps.size(); ++i)
+	{
+		const PlanStep& step = plan.steps[i];
+		setWorkingOn(fmt::format("pass {}", step.pass->name));
+		if (device_.functions.begin_label)
+		{
+			const std::string name(step.pass->name);
+			VkDebugUtilsLabelEXT label = { VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT };
+			label.pLabelName = name.c_str();
+			device_.functions.begin_label(commands, &label);
+		}
+		recordBarrier(commands, step);
+		PassContext context(device_, commands, resources_, pipelines_.at(step.pass->name), resources_.bindless().layout(), step, input);
+		step.pass->record(context);
+		if (device_.functions.end_label)
+			device_.functions.end_label(commands);
+		stamp(static_cast<uint32_t>(i + 1));
+	}
+	return {};
+}
+
+Status PassRunner::readTimes()
+{
+	step_ms_.assign(step_count_, 0);
+	total_ms_ = 0;
+	if (device_.limits.timestamp_ns <= 0)
+		return {};
+	std::vector<uint64_t> ticks(step_count_ + 1);
+	VK_TRY(vkGetQueryPoolResults(device_.handle, queries_, 0, static_cast<uint32_t>(ticks.size()), ticks.size() * sizeof(uint64_t), ticks.data(),
+	                             sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+	       "reading the timers");
+	const double ms_per_tick = device_.limits.timestamp_ns * 1e-6;
+	for (size_t i = 0; i < step_count_; ++i)
+		step_ms_[i] = double(ticks[i + 1] - ticks[i]) * ms_per_tick;
+	total_ms_ = double(ticks.back() - ticks.front()) * ms_per_tick;
+	return {};
+}
+
+}  // namespace tessera

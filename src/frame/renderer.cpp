@@ -1,0 +1,267 @@
+#include "frame/renderer.h"
+
+#include "base/check.h"
+#include "frame/pass_runner.h"
+#include "frame/rate_controller.h"
+#include "plan/conditions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+namespace tessera
+{
+
+SceneSizes sizesOf(const BuiltScene& scene)
+{
+	SceneSizes sizes;
+	sizes.vertices = scene.positions.size();
+	sizes.triangles = scene.triangles.size();
+	sizes.clusters = scene.clusters.size();
+	sizes.meshes = scene.meshes.size();
+	sizes.instances = scene.instances.size();
+	sizes.materials = scene.materials.size();
+	for (const Instance& instance : scene.instances)
+		sizes.instanced_clusters += scene.meshes[instance.mesh].cluster_count;
+	for (const HeightMapData& map : scene.height_maps)
+		sizes.height_texel_bytes += map.texels.size() * sizeof(uint32_t);
+	for (const ColorTexture& texture : scene.color_textures)
+		sizes.color_texture_bytes += texture.rgba.size() * 4 / 3;
+	sizes.seam_edges = scene.seam_edges.size();
+	sizes.seam_corners = scene.seam_corners.size();
+	sizes.height_maps = scene.height_maps.size();
+	return sizes;
+}
+
+DeviceTraits traitsOf(const Device& device)
+{
+	return { device.gates.mesh_shader, device.gates.fragment_primitive_id, device.is_cpu };
+}
+
+namespace
+{
+
+Status checkGates(const Device& device, const RenderOptions& options)
+{
+	if (options.raster == Raster::Mesh && !device.gates.mesh_shader)
+		return fail(ExitCode::DeviceCannot, "--raster mesh: {} lacks VK_EXT_mesh_shader; --raster indexed needs no mesh shaders", device.name);
+	const bool indexed = options.raster == Raster::Indexed || !device.gates.mesh_shader;
+	if (indexed && !device.gates.fragment_primitive_id)
+		return fail(ExitCode::DeviceCannot, "--raster indexed: {} lacks primitive ids in fragment shaders (geometryShader) or 32-bit indices", device.name);
+	if (options.width_px == 0 || options.height_px == 0 || std::max(options.width_px, options.height_px) > device.limits.max_image_extent)
+		return fail(ExitCode::Usage, "--size {}x{}: {} can draw from 1x1 to {}x{}", options.width_px, options.height_px, device.name,
+		            device.limits.max_image_extent, device.limits.max_image_extent);
+	return {};
+}
+
+constexpr std::string_view kWanted[] = { "picture", "counts", "heads" };
+
+class SceneRenderer final : public Renderer
+{
+public:
+	SceneRenderer(Device& device, const BuiltScene& scene, const TessellationTable& table, std::span<const PassDesc* const> passes,
+	              const RenderOptions& options)
+		: device_(device), scene_(scene), table_(table), passes_(passes)
+	{
+		input_ = { options, scene.traits, sizesOf(scene), traitsOf(device), {} };
+	}
+
+	Status initialize()
+	{
+		TRY(checkGates(device_, input_.options));
+		TRY_ASSIGN(resources_, FrameResources::create(device_, scene_, table_, input_));
+		TRY_ASSIGN(runner_, PassRunner::create(device_, *resources_));
+		TRY_ASSIGN(plan_, planFor(framingCamera(scene_), {}));
+		return {};
+	}
+
+	Result<FrameResult> renderFrame(const Camera& camera) override
+	{
+		controller_.beginFrame(camera == last_camera_);
+		last_camera_ = camera;
+		for (uint32_t attempts = 1;; ++attempts)
+		{
+			const Attempt attempt = controller_.next();
+			TRY_ASSIGN(FrameResult result, drawAttempt(camera, attempt));
+			result.attempts = attempts;
+			if (lacked_levels_)
+				continue;
+			if (controller_.accept(outcome_))
+				return result;
+		}
+	}
+
+	Result<std::vector<uint8_t>> readPicture() override
+	{
+		const uint64_t bytes = uint64_t(input_.options.width_px) * input_.options.height_px * 4;
+		TRY_ASSIGN(const std::vector<std::byte> raw, resources_->read("picture", bytes));
+		std::vector<uint8_t> picture(raw.size());
+		std::memcpy(picture.data(), raw.data(), raw.size());
+		return picture;
+	}
+
+	Result<std::vector<std::byte>> readResource(std::string_view name) override
+	{
+		uint64_t bytes = UINT64_MAX;
+		if (const ListDesc* list = findList(name))
+		{
+			const ListHead head = resources_->head(list->index);
+			bytes = uint64_t(std::min(head.wanted, head.capacity)) * list->record_bytes;
+		}
+		return resources_->read(name, bytes);
+	}
+
+	const FramePlan& plan() const override { return plan_; }
+	const PlanInput& planInput() const override { return input_; }
+	MemoryStats memory() const override { return resources_->memory(); }
+	const View& view() const override { return view_; }
+
+private:
+	double grantedRate(const Attempt& attempt) const { return double(input_.options.rate) * std::exp2(attempt.coarsening / 16.0); }
+
+	ViewRequest requestFor(const Attempt& attempt) const
+	{
+		ViewRequest request = { input_.options.width_px, input_.options.height_px };
+		request.rate_px = grantedRate(attempt);
+		request.every_factor_one = attempt.every_factor_one;
+		request.displacement_scale = input_.options.displacement_scale;
+		return request;
+	}
+
+	Result<FramePlan> planFor(const Camera& camera, const Attempt& attempt)
+	{
+		const FactorBound bound = boundFactors(camera, scene_, requestFor(attempt), table_.max_edge_segments,
+		                                       std::min(input_.options.max_split, table_.max_edge_segments));
+		input_.view.factors_above_one = bound.above_one;
+		input_.view.split_levels = bound.split_levels > 0 || levels_needed_ > 0 ? std::max(bound.split_levels, levels_needed_) : 0;
+		input_.view.rounds = attempt.rounds;
+		return planFrame(passes_, resourceDescs(), kWanted, input_);
+	}
+
+	// One attempt: plans, draws all rounds, and leaves in outcome_ whether everything fitted.
+	Result<FrameResult> drawAttempt(const Camera& camera, const Attempt& attempt)
+	{
+		lacked_levels_ = false;
+		outcome_ = { true, 1, false };
+		TRY_ASSIGN(view_, makeView(camera, scene_, requestFor(attempt)));
+		TRY_ASSIGN(plan_, planFor(camera, attempt));
+		TRY(resources_->prepare(plan_, input_));
+		TRY(runner_->preparePipelines(plan_, input_));
+		FrameResult result;
+		result.rate_wanted = double(input_.options.rate);
+		result.rate_granted = grantedRate(attempt);
+		result.coarsening = attempt.coarsening;
+		result.every_factor_one = attempt.every_factor_one;
+		result.rounds = attempt.rounds;
+		for (uint32_t round = 0; round < attempt.rounds && outcome_.fits && !lacked_levels_; ++round)
+			TRY(drawRound(round, result));
+		fillLists(result);
+		return result;
+	}
+
+	Status drawRound(uint32_t round, FrameResult& result)
+	{
+		CommandRecorder& commands = resources_->commands();
+		TRY(commands.begin());
+		TRY(resources_->writeView(view_, round));
+		TRY(runner_->record(plan_, input_));
+		resources_->recordCountsReadback(commands.buffer());
+		TRY(commands.submitAndWait());
+		TRY(runner_->readTimes());
+		addTimes(result);
+		judge();
+		addCounts(result);
+		return {};
+	}
+
+	void addTimes(FrameResult& result) const
+	{
+		result.gpu_ms += runner_->totalMs();
+		for (size_t i = 0; i < plan_.steps.size(); ++i)
+		{
+			const std::string_view name = plan_.steps[i].pass->name;
+			auto found = std::find_if(result.passes.begin(), result.passes.end(), [&](const PassTime& time) { return time.name == name; });
+			if (found == result.passes.end())
+				found = result.passes.insert(result.passes.end(), { std::string(name), 0 });
+			found->gpu_ms += runner_->stepMs()[i];
+		}
+	}
+
+	// What the device said: did every list hold what was wanted?
+	void judge()
+	{
+		const FrameCounts counts = resources_->counts();
+		if (counts.overflow == 0)
+			return;
+		const uint32_t levels = kSplits.holds(input_) ? input_.view.split_levels : 0;
+		if (kTessellates.holds(input_) && counts.split_count[levels] > 0 && levels + 2 < MAX_SPLIT_LEVELS)
+		{
+			levels_needed_ = std::max(levels + 2, 2u);
+			lacked_levels_ = true;
+			return;
+		}
+		outcome_.fits = false;
+		outcome_.worst_ratio = counts.split_count[levels] > 0 ? 2 : 1;
+		for (const ListDesc& list : listDescs())
+		{
+			const ListHead head = resources_->head(list.index);
+			if (head.wanted <= head.capacity)
+				continue;
+			const bool clusters = list.index == LIST_CLUSTER_GROUPS || list.index == LIST_VISIBLE_CLUSTERS || list.index == LIST_FULL_CLUSTERS;
+			outcome_.clusters_overflow |= clusters;
+			if (!clusters)
+				outcome_.worst_ratio = std::max(outcome_.worst_ratio, double(head.wanted) / std::max(head.capacity, 1u));
+		}
+	}
+
+	void addCounts(FrameResult& result) const
+	{
+		const FrameCounts counts = resources_->counts();
+		FrameCountsRead& sum = result.counts;
+		sum.visible_clusters += resources_->head(LIST_VISIBLE_CLUSTERS).wanted;
+		sum.full_clusters += resources_->head(LIST_FULL_CLUSTERS).wanted;
+		sum.part_triangles += resources_->head(LIST_PART_TRIANGLES).wanted;
+		sum.split_triangles += resources_->head(LIST_SPLIT_TRIANGLES).wanted;
+		sum.micro_triangles += (uint64_t(counts.micro_high) << 32 | counts.micro_low) + counts.full_cluster_triangles;
+		sum.covered_pixels = counts.covered_pixels;  // of the whole depth image, so the last round's count is the frame's
+	}
+
+	void fillLists(FrameResult& result) const
+	{
+		for (const ListDesc& list : listDescs())
+		{
+			if (!resources_->has(list.name))
+				continue;
+			const ListHead head = resources_->head(list.index);
+			result.lists.push_back({ std::string(list.name), head.wanted, head.capacity, head.peak, head.peak_used, listBytes(list, head.capacity) });
+		}
+	}
+
+	Device& device_;
+	const BuiltScene& scene_;
+	const TessellationTable& table_;
+	std::span<const PassDesc* const> passes_;
+	PlanInput input_;
+	FramePlan plan_;
+	View view_ = {};
+	std::unique_ptr<FrameResources> resources_;
+	std::unique_ptr<PassRunner> runner_;
+	RateController controller_;
+	AttemptOutcome outcome_;
+	Camera last_camera_ = {};
+	uint32_t levels_needed_ = 0;  // more split levels than the host foresaw were needed
+	bool lacked_levels_ = false;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Renderer>> Renderer::create(Device& device, const BuiltScene& scene, const TessellationTable& table,
+                                                   std::span<const PassDesc* const> passes, const RenderOptions& options)
+{
+	auto renderer = std::make_unique<SceneRenderer>(device, scene, table, passes, options);
+	TRY(renderer->initialize());
+	return renderer;
+}
+
+}  // namespace tessera

@@ -1,0 +1,45 @@
+// Draws frames of one scene on one device: plans, holds resources and pipelines, coarsens when a list would overflow.
+#pragma once
+#include "frame/stats.h"
+#include "gpu/device.h"
+#include "plan/plan.h"
+#include "scene/camera.h"
+#include "tables/table.h"
+
+#include <memory>
+#include <span>
+
+namespace tessera
+{
+
+class Renderer
+{
+public:
+	// `passes` in execution order (pipeline/passes.h). The scene, table and device must outlive the renderer.
+	// Errors: DeviceCannot (a gate that the options need is closed), BadInput (out of memory, picture too large).
+	static Result<std::unique_ptr<Renderer>> create(Device& device, const BuiltScene& scene, const TessellationTable& table,
+	                                                std::span<const PassDesc* const> passes, const RenderOptions& options);
+	virtual ~Renderer() = default;
+
+	// One picture. When lists overflow it is counted again at a coarser rate until it fits; nothing is dropped (C2).
+	virtual Result<FrameResult> renderFrame(const Camera& camera) = 0;
+
+	// The last picture: width x height x 4 bytes, RGBA, sRGB-encoded, rows top to bottom.
+	virtual Result<std::vector<uint8_t>> readPicture() = 0;
+
+	// Entries of a list or bytes of a named resource after the last frame (for tests and verification).
+	virtual Result<std::vector<std::byte>> readResource(std::string_view name) = 0;
+
+	// The plan of the last frame (before the first: of the framing camera).
+	virtual const FramePlan& plan() const = 0;
+	virtual const PlanInput& planInput() const = 0;
+	virtual MemoryStats memory() const = 0;
+	// The view of the last frame, as the shaders saw it.
+	virtual const View& view() const = 0;
+};
+
+// What the planner needs to know of a scene's arrays.
+SceneSizes sizesOf(const BuiltScene& scene);
+DeviceTraits traitsOf(const Device& device);
+
+}  // namespace tessera

@@ -1,0 +1,55 @@
+// What a drawn frame tells of itself: the numbers behind --stats, the report and the viewer (DESIGN.md, contract C7).
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tessera
+{
+
+struct PassTime
+{
+	std::string name;
+	double gpu_ms = 0;  // all repetitions, attempts and rounds of the frame together
+};
+
+struct ListStats
+{
+	std::string name;
+	uint64_t wanted = 0;     // of the attempt that was drawn
+	uint32_t capacity = 0;
+	uint32_t peak = 0;       // largest wanted since the list was made, refused attempts included
+	uint32_t peak_used = 0;  // most that a drawn frame held
+	uint64_t bytes = 0;
+};
+
+struct FrameCountsRead
+{
+	uint64_t full_clusters = 0;
+	uint64_t visible_clusters = 0;
+	uint64_t part_triangles = 0;
+	uint64_t split_triangles = 0;
+	uint64_t micro_triangles = 0;  // of parts and full clusters
+	uint64_t covered_pixels = 0;
+};
+
+struct FrameResult
+{
+	double gpu_ms = 0;  // every pass of the attempt that was drawn, clears and barriers included
+	std::vector<PassTime> passes;
+	double rate_wanted = 0, rate_granted = 0;
+	uint32_t coarsening = 0;  // j: the granted rate is rate x 2^(j/16)
+	bool every_factor_one = false;
+	uint32_t rounds = 1;
+	uint32_t attempts = 1;  // 1: it fit at once
+	FrameCountsRead counts;
+	std::vector<ListStats> lists;
+};
+
+struct MemoryStats
+{
+	uint64_t lists = 0, geometry = 0, textures = 0, images = 0;
+	uint64_t total() const { return lists + geometry + textures + images; }
+};
+
+}  // namespace tessera

@@ -1,0 +1,69 @@
+// A Vulkan device with one queue, its allocator and its gates.
+#pragma once
+#include "gpu/gates.h"
+#include "gpu/vulkan.h"
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+struct VmaAllocator_T;
+
+namespace tessera
+{
+
+struct DeviceRequest
+{
+	std::string name;      // part of a device's name or its number in the system's order; empty: the fastest kind there is
+	bool validate = false; // core and synchronisation validation
+};
+
+struct DeviceLimits
+{
+	uint32_t subgroup_size = 0;
+	uint32_t max_workgroup_threads = 0;
+	uint32_t mesh_workgroup_threads = 32; // what the device prefers for mesh shaders, within its limits
+	uint32_t max_mesh_rows = 65535;       // second dimension of a mesh draw
+	uint32_t max_image_extent = 0;
+	uint32_t loop_workgroups = 0; // workgroups of a dispatch whose threads loop over a list
+	double timestamp_ns = 0;      // per tick; 0: no timestamps
+};
+
+class Device
+{
+public:
+	// Errors: DeviceCannot, naming every required feature that is missing, or the devices there are.
+	static Result<std::unique_ptr<Device>> create(const DeviceRequest& request);
+	~Device();
+	Device(const Device&) = delete;
+	Device& operator=(const Device&) = delete;
+
+	VkInstance instance = VK_NULL_HANDLE;
+	VkPhysicalDevice physical = VK_NULL_HANDLE;
+	VkDevice handle = VK_NULL_HANDLE;
+	VkQueue queue = VK_NULL_HANDLE;
+	uint32_t queue_family = 0;
+	VmaAllocator_T* allocator = nullptr;
+	VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+	ExtensionFunctions functions;
+	DeviceGates gates;
+	DeviceLimits limits;
+	std::string name, driver, api;
+	bool is_cpu = false;
+
+	// Validation messages since creation; 0 without --validate.
+	uint32_t validationMessages() const { return validation_messages_; }
+	std::atomic<uint32_t> validation_messages_ = 0;
+
+	void nameObject(VkObjectType type, uint64_t object, const std::string& object_name) const;
+
+private:
+	Device() = default;
+	friend struct DeviceBuilder;
+	VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+};
+
+// A line per device of the system, for messages and `info`.
+Result<std::vector<std::string>> listDevices();
+
+} // namespace tessera

@@ -1,0 +1,134 @@
+#include "gpu/device_features.h"
+
+#include "gpu/device.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace tessera
+{
+
+bool DeviceFeatures::has(const char* extension) const
+{
+	return std::any_of(available_.begin(), available_.end(), [&](const auto& p) { return std::strcmp(p.extensionName, extension) == 0; });
+}
+
+Status DeviceFeatures::query(VkPhysicalDevice physical, const std::string& device_name)
+{
+	VkPhysicalDeviceProperties properties;
+	vkGetPhysicalDeviceProperties(physical, &properties);
+	if (properties.apiVersion < VK_API_VERSION_1_3)
+		return fail(ExitCode::DeviceCannot, "{}: offers Vulkan {}.{}, 1.3 is needed", device_name, VK_API_VERSION_MAJOR(properties.apiVersion),
+					VK_API_VERSION_MINOR(properties.apiVersion));
+	uint32_t count = 0;
+	vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+	available_.resize(count);
+	vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, available_.data());
+
+	core_.pNext = &vulkan11_;
+	vulkan11_.pNext = &vulkan12_;
+	vulkan12_.pNext = &vulkan13_;
+	vulkan13_.pNext = has(VK_EXT_MESH_SHADER_EXTENSION_NAME) ? &mesh_ : nullptr;
+	vkGetPhysicalDeviceFeatures2(physical, &core_);
+	VkPhysicalDeviceFloatControlsProperties floats = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES };
+	VkPhysicalDeviceProperties2 properties2 = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &floats };
+	vkGetPhysicalDeviceProperties2(physical, &properties2);
+
+	const std::pair<const char*, VkBool32> required[] = {
+		{ "shaderInt64", core_.features.shaderInt64 },
+		{ "scalarBlockLayout", vulkan12_.scalarBlockLayout },
+		{ "bufferDeviceAddress", vulkan12_.bufferDeviceAddress },
+		{ "runtimeDescriptorArray", vulkan12_.runtimeDescriptorArray },
+		{ "descriptorBindingPartiallyBound", vulkan12_.descriptorBindingPartiallyBound },
+		{ "shaderSampledImageArrayNonUniformIndexing", vulkan12_.shaderSampledImageArrayNonUniformIndexing },
+		{ "hostQueryReset", vulkan12_.hostQueryReset },
+		{ "synchronization2", vulkan13_.synchronization2 },
+		{ "dynamicRendering", vulkan13_.dynamicRendering },
+		{ "maintenance4", vulkan13_.maintenance4 },
+		{ "shaderRoundingModeRTEFloat32", floats.shaderRoundingModeRTEFloat32 },
+		{ "shaderSignedZeroInfNanPreserveFloat32", floats.shaderSignedZeroInfNanPreserveFloat32 },
+	};
+	std::string missing;
+	for (const auto& [name, offered] : required)
+		if (!offered)
+			missing += fmt::format("{}{}", missing.empty() ? "" : ", ", name);
+	if (!missing.empty())
+		return fail(ExitCode::DeviceCannot, "{}: lacks {}", device_name, missing);
+	openGates();
+	return {};
+}
+
+void DeviceFeatures::openGates()
+{
+	gates_.mesh_shader = mesh_.meshShader;
+	gates_.fragment_primitive_id = core_.features.geometryShader && core_.features.fullDrawIndexUint32;
+	gates_.buffer_atomics_64 = vulkan12_.shaderBufferInt64Atomics;
+	gates_.image_atomics_64 = has("VK_EXT_shader_image_atomic_int64");
+	gates_.acceleration_structure = has(VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME);
+	gates_.ray_tracing_pipeline = has(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
+	gates_.ray_query = has(VK_KHR_RAY_QUERY_EXTENSION_NAME);
+	gates_.cluster_acceleration_structure = has("VK_NV_cluster_acceleration_structure");
+	gates_.fragment_barycentric = has("VK_KHR_fragment_shader_barycentric");
+	gates_.conditional_rendering = has(VK_EXT_CONDITIONAL_RENDERING_EXTENSION_NAME);
+}
+
+const void* DeviceFeatures::enabledChain()
+{
+	enabled_core_.features.shaderInt64 = VK_TRUE;
+	enabled_core_.features.geometryShader = gates_.fragment_primitive_id;
+	enabled_core_.features.fullDrawIndexUint32 = gates_.fragment_primitive_id;
+	enabled12_.scalarBlockLayout = VK_TRUE;
+	enabled12_.bufferDeviceAddress = VK_TRUE;
+	enabled12_.runtimeDescriptorArray = VK_TRUE;
+	enabled12_.descriptorBindingPartiallyBound = VK_TRUE;
+	enabled12_.shaderSampledImageArrayNonUniformIndexing = VK_TRUE;
+	enabled12_.hostQueryReset = VK_TRUE;
+	enabled12_.shaderBufferInt64Atomics = gates_.buffer_atomics_64;
+	enabled13_.synchronization2 = VK_TRUE;
+	enabled13_.dynamicRendering = VK_TRUE;
+	enabled13_.maintenance4 = VK_TRUE;
+	enabled_core_.pNext = &enabled12_;
+	enabled12_.pNext = &enabled13_;
+	if (gates_.mesh_shader)
+	{
+		enabled_mesh_.meshShader = VK_TRUE;
+		enabled13_.pNext = &enabled_mesh_;
+		extensions_.push_back(VK_EXT_MESH_SHADER_EXTENSION_NAME);
+	}
+	return &enabled_core_;
+}
+
+static std::string versionText(uint32_t version)
+{
+	return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version), VK_API_VERSION_PATCH(version));
+}
+
+void describeDevice(Device& device)
+{
+	VkPhysicalDeviceMeshShaderPropertiesEXT mesh = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_PROPERTIES_EXT };
+	VkPhysicalDeviceVulkan11Properties vulkan11 = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES, &mesh };
+	VkPhysicalDeviceDriverProperties driver = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, &vulkan11 };
+	VkPhysicalDeviceProperties2 properties2 = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver };
+	vkGetPhysicalDeviceProperties2(device.physical, &properties2);
+	const VkPhysicalDeviceProperties& properties = properties2.properties;
+
+	device.name = properties.deviceName;
+	device.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+	device.api = versionText(properties.apiVersion);
+	device.is_cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+	DeviceLimits& limits = device.limits;
+	limits.subgroup_size = vulkan11.subgroupSize;
+	limits.max_workgroup_threads = properties.limits.maxComputeWorkGroupInvocations;
+	limits.max_image_extent = std::min(properties.limits.maxImageDimension2D, properties.limits.maxFramebufferWidth);
+	limits.timestamp_ns = properties.limits.timestampComputeAndGraphics ? double(properties.limits.timestampPeriod) : 0;
+	// Enough workgroups to fill any GPU; a processor needs only some per core.
+	limits.loop_workgroups = device.is_cpu ? 64 : 2048;
+	if (mesh.maxMeshWorkGroupInvocations > 0)
+	{
+		const uint32_t preferred = std::clamp(mesh.maxPreferredMeshWorkGroupInvocations, 32u, 128u);
+		limits.mesh_workgroup_threads = std::min(preferred, mesh.maxMeshWorkGroupInvocations);
+		limits.max_mesh_rows = std::min(mesh.maxMeshWorkGroupCount[1], 65535u);
+	}
+}
+
+} // namespace tessera

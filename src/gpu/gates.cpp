@@ -1,0 +1,23 @@
+#include "gpu/gates.h"
+
+namespace tessera
+{
+
+std::vector<Gate> DeviceGates::table() const
+{
+	return {
+		{ "mesh_shader", mesh_shader, "--raster indexed: micro-triangles are expanded by compute and drawn indexed" },
+		{ "fragment_primitive_id", fragment_primitive_id, "--raster indexed is closed" },
+		{ "buffer_atomics_64", buffer_atomics_64, "--raster soft is closed" },
+		{ "image_atomics_64", image_atomics_64, "buffers are used, at the same speed" },
+		{ "acceleration_structure", acceleration_structure, "--raster rt is closed" },
+		{ "ray_tracing_pipeline", ray_tracing_pipeline, "ray queries, where there are any" },
+		{ "ray_query", ray_query, "ray tracing pipelines, where there are any" },
+		{ "cluster_acceleration_structure", cluster_acceleration_structure, "acceleration structures of expanded micro-triangles" },
+		{ "fragment_barycentric", fragment_barycentric, "shade computes barycentrics itself" },
+		{ "conditional_rendering", conditional_rendering, "indirect arguments of zero" },
+		{ "debug_names", debug_names, "objects have no names in validation messages" },
+	};
+}
+
+} // namespace tessera

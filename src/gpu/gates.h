@@ -1,0 +1,35 @@
+// Everything optional that a device may offer, asked for by feature and never by vendor (DESIGN.md, contract C6).
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tessera
+{
+
+struct Gate
+{
+	std::string_view name; // key in the stats
+	bool open = false;
+	std::string_view instead; // what is done while it is closed
+};
+
+// What a device offers beyond the requirements.
+struct DeviceGates
+{
+	bool mesh_shader = false;
+	bool fragment_primitive_id = false; // geometryShader: gl_PrimitiveID in fragment shaders
+	bool buffer_atomics_64 = false;
+	bool image_atomics_64 = false;
+	bool acceleration_structure = false;
+	bool ray_tracing_pipeline = false;
+	bool ray_query = false;
+	bool cluster_acceleration_structure = false;
+	bool fragment_barycentric = false;
+	bool conditional_rendering = false;
+	bool debug_names = false;
+
+	std::vector<Gate> table() const;
+};
+
+} // namespace tessera

@@ -1,0 +1,271 @@
+#include "gpu/pipeline.h"
+
+#include "base/file.h"
+
+#include <cstring>
+#include <utility>
+
+namespace tessera
+{
+
+namespace
+{
+
+// Specialisation data as Vulkan wants it; keeps what it points to alive.
+class Specialization
+{
+public:
+	explicit Specialization(const Constants& constants)
+	{
+		for (const auto& [id, value] : constants)
+		{
+			entries_.push_back({ id, static_cast<uint32_t>(values_.size() * sizeof(uint32_t)), sizeof(uint32_t) });
+			values_.push_back(value);
+		}
+		info_ = { static_cast<uint32_t>(entries_.size()), entries_.data(), values_.size() * sizeof(uint32_t), values_.data() };
+	}
+	const VkSpecializationInfo* info() const { return &info_; }
+
+private:
+	std::vector<VkSpecializationMapEntry> entries_;
+	std::vector<uint32_t> values_;
+	VkSpecializationInfo info_ = {};
+};
+
+Result<VkShaderModule> makeModule(Device& device, const Shader& shader)
+{
+	VkShaderModuleCreateInfo info = { VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO };
+	info.codeSize = shader.words.size() * sizeof(uint32_t);
+	info.pCode = shader.words.data();
+	VkShaderModule shader_module = VK_NULL_HANDLE;
+	VK_TRY(vkCreateShaderModule(device.handle, &info, nullptr, &shader_module), "loading shader {} ({} bytes of SPIR-V)", shader.name, info.codeSize);
+	return shader_module;
+}
+
+VkPipelineShaderStageCreateInfo stageInfo(const Shader& shader, VkShaderModule shader_module, const Specialization& specialization)
+{
+	VkPipelineShaderStageCreateInfo info = { VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO };
+	info.stage = shader.stage;
+	info.module = shader_module;
+	info.pName = "main";
+	info.pSpecializationInfo = specialization.info();
+	return info;
+}
+
+VkShaderStageFlagBits stageOfName(std::string_view name)
+{
+	if (name.ends_with(".mesh"))
+		return VK_SHADER_STAGE_MESH_BIT_EXT;
+	if (name.ends_with(".vert"))
+		return VK_SHADER_STAGE_VERTEX_BIT;
+	if (name.ends_with(".frag"))
+		return VK_SHADER_STAGE_FRAGMENT_BIT;
+	return VK_SHADER_STAGE_COMPUTE_BIT;
+}
+
+} // namespace
+
+Result<std::unique_ptr<BindlessSet>> BindlessSet::create(Device& device)
+{
+	std::unique_ptr<BindlessSet> set(new BindlessSet(device));
+	const VkDescriptorSetLayoutBinding bindings[] = {
+		{ 0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kMaxTextures, VK_SHADER_STAGE_ALL, nullptr },
+		{ 1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_ALL, nullptr },
+		{ 2, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_ALL, nullptr },
+	};
+	const VkDescriptorBindingFlags partial = VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT;
+	const VkDescriptorBindingFlags flags[] = { partial, partial, partial };
+	VkDescriptorSetLayoutBindingFlagsCreateInfo flags_info = { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO };
+	flags_info.bindingCount = 3;
+	flags_info.pBindingFlags = flags;
+	VkDescriptorSetLayoutCreateInfo layout_info = { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, &flags_info };
+	layout_info.bindingCount = 3;
+	layout_info.pBindings = bindings;
+	VK_TRY(vkCreateDescriptorSetLayout(device.handle, &layout_info, nullptr, &set->set_layout_), "creating the descriptor set layout");
+
+	const VkPushConstantRange range = { VK_SHADER_STAGE_ALL, 0, kPushConstantBytes };
+	VkPipelineLayoutCreateInfo pipeline_info = { VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO };
+	pipeline_info.setLayoutCount = 1;
+	pipeline_info.pSetLayouts = &set->set_layout_;
+	pipeline_info.pushConstantRangeCount = 1;
+	pipeline_info.pPushConstantRanges = &range;
+	VK_TRY(vkCreatePipelineLayout(device.handle, &pipeline_info, nullptr, &set->pipeline_layout_), "creating the pipeline layout");
+
+	const VkDescriptorPoolSize sizes[] = { { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kMaxTextures }, { VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 2 } };
+	VkDescriptorPoolCreateInfo pool_info = { VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO };
+	pool_info.maxSets = 1;
+	pool_info.poolSizeCount = 2;
+	pool_info.pPoolSizes = sizes;
+	VK_TRY(vkCreateDescriptorPool(device.handle, &pool_info, nullptr, &set->pool_), "creating the descriptor pool");
+	VkDescriptorSetAllocateInfo allocate = { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO };
+	allocate.descriptorPool = set->pool_;
+	allocate.descriptorSetCount = 1;
+	allocate.pSetLayouts = &set->set_layout_;
+	VK_TRY(vkAllocateDescriptorSets(device.handle, &allocate, &set->set_), "allocating the descriptor set");
+	return set;
+}
+
+BindlessSet::~BindlessSet()
+{
+	vkDestroyDescriptorPool(device_.handle, pool_, nullptr);
+	vkDestroyPipelineLayout(device_.handle, pipeline_layout_, nullptr);
+	vkDestroyDescriptorSetLayout(device_.handle, set_layout_, nullptr);
+}
+
+void BindlessSet::writeTexture(uint32_t index, VkImageView view, VkSampler sampler)
+{
+	const VkDescriptorImageInfo image = { sampler, view, VK_IMAGE_LAYOUT_GENERAL };
+	VkWriteDescriptorSet write = { VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET };
+	write.dstSet = set_;
+	write.dstArrayElement = index;
+	write.descriptorCount = 1;
+	write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+	write.pImageInfo = &image;
+	vkUpdateDescriptorSets(device_.handle, 1, &write, 0, nullptr);
+}
+
+void BindlessSet::writeImage(uint32_t binding, VkImageView view)
+{
+	const VkDescriptorImageInfo image = { VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL };
+	VkWriteDescriptorSet write = { VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET };
+	write.dstSet = set_;
+	write.dstBinding = binding;
+	write.descriptorCount = 1;
+	write.descriptorType = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+	write.pImageInfo = &image;
+	vkUpdateDescriptorSets(device_.handle, 1, &write, 0, nullptr);
+}
+
+Pipeline::~Pipeline()
+{
+	if (handle_)
+		vkDestroyPipeline(device_->handle, handle_, nullptr);
+}
+
+void Pipeline::swap(Pipeline& other) noexcept
+{
+	std::swap(device_, other.device_);
+	std::swap(handle_, other.handle_);
+	std::swap(bind_point_, other.bind_point_);
+}
+
+std::filesystem::path shaderFolder()
+{
+	const std::filesystem::path program = programFolder();
+	const std::filesystem::path installed = program.parent_path() / "share/tessera/shaders";
+	std::error_code code;
+	return std::filesystem::is_directory(installed, code) ? installed : program / "shaders";
+}
+
+Result<Shader> loadShader(std::string_view name)
+{
+	const std::filesystem::path path = shaderFolder() / (std::string(name) + ".spv");
+	auto bytes = readFile(path);
+	if (!bytes)
+		return fail(ExitCode::DeviceCannot, "{} (a shader of the installation)", bytes.error().message);
+	if (bytes->empty() || bytes->size() % 4 != 0)
+		return fail(ExitCode::DeviceCannot, "{}: is no SPIR-V", path.string());
+	Shader shader = { std::string(name), stageOfName(name), {} };
+	shader.words.resize(bytes->size() / 4);
+	std::memcpy(shader.words.data(), bytes->data(), bytes->size());
+	return shader;
+}
+
+Result<Pipeline> makeComputePipeline(Device& device, VkPipelineLayout layout, const Shader& shader, const Constants& constants)
+{
+	const Specialization specialization(constants);
+	TRY_ASSIGN(const VkShaderModule shader_module, makeModule(device, shader));
+	VkComputePipelineCreateInfo info = { VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO };
+	info.stage = stageInfo(shader, shader_module, specialization);
+	info.layout = layout;
+	VkPipeline pipeline = VK_NULL_HANDLE;
+	const VkResult result = vkCreateComputePipelines(device.handle, device.pipeline_cache, 1, &info, nullptr, &pipeline);
+	vkDestroyShaderModule(device.handle, shader_module, nullptr);
+	VK_TRY(result, "creating the pipeline of {}", shader.name);
+	device.nameObject(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline), shader.name);
+	return Pipeline(device, pipeline, VK_PIPELINE_BIND_POINT_COMPUTE);
+}
+
+namespace
+{
+
+// The fixed state of every draw: reverse depth, one colour attachment of payloads.
+struct FixedState
+{
+	explicit FixedState(const DrawState& state) : color_format(state.color)
+	{
+		input_assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+		viewport.viewportCount = 1;
+		viewport.scissorCount = 1;
+		rasterization.cullMode = state.cull;
+		rasterization.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+		rasterization.lineWidth = 1;
+		multisample.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+		depth.depthTestEnable = VK_TRUE;
+		depth.depthWriteEnable = VK_TRUE;
+		depth.depthCompareOp = VK_COMPARE_OP_GREATER;
+		attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT;
+		blend.attachmentCount = 1;
+		blend.pAttachments = &attachment;
+		dynamic.dynamicStateCount = 2;
+		dynamic.pDynamicStates = dynamic_states;
+		rendering.colorAttachmentCount = 1;
+		rendering.pColorAttachmentFormats = &color_format;
+		rendering.depthAttachmentFormat = state.depth;
+	}
+	FixedState(const FixedState&) = delete;
+
+	VkFormat color_format;
+	VkDynamicState dynamic_states[2] = { VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR };
+	VkPipelineColorBlendAttachmentState attachment = {};
+	VkPipelineVertexInputStateCreateInfo vertex_input = { VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO };
+	VkPipelineInputAssemblyStateCreateInfo input_assembly = { VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO };
+	VkPipelineViewportStateCreateInfo viewport = { VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO };
+	VkPipelineRasterizationStateCreateInfo rasterization = { VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO };
+	VkPipelineMultisampleStateCreateInfo multisample = { VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO };
+	VkPipelineDepthStencilStateCreateInfo depth = { VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO };
+	VkPipelineColorBlendStateCreateInfo blend = { VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO };
+	VkPipelineDynamicStateCreateInfo dynamic = { VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO };
+	VkPipelineRenderingCreateInfo rendering = { VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO };
+};
+
+} // namespace
+
+Result<Pipeline> makeDrawPipeline(Device& device, VkPipelineLayout layout, std::span<const Shader> shaders, const Constants& constants,
+								  const DrawState& state)
+{
+	const Specialization specialization(constants);
+	const FixedState fixed(state);
+	std::vector<VkPipelineShaderStageCreateInfo> stages;
+	Status loaded;
+	for (const Shader& shader : shaders)
+	{
+		auto shader_module = makeModule(device, shader);
+		if (shader_module)
+			stages.push_back(stageInfo(shader, *shader_module, specialization));
+		else
+			loaded = tl::unexpected(shader_module.error());
+	}
+	VkGraphicsPipelineCreateInfo info = { VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &fixed.rendering };
+	info.stageCount = static_cast<uint32_t>(stages.size());
+	info.pStages = stages.data();
+	info.pVertexInputState = &fixed.vertex_input;
+	info.pInputAssemblyState = &fixed.input_assembly;
+	info.pViewportState = &fixed.viewport;
+	info.pRasterizationState = &fixed.rasterization;
+	info.pMultisampleState = &fixed.multisample;
+	info.pDepthStencilState = &fixed.depth;
+	info.pColorBlendState = &fixed.blend;
+	info.pDynamicState = &fixed.dynamic;
+	info.layout = layout;
+	VkPipeline pipeline = VK_NULL_HANDLE;
+	const VkResult result = loaded ? vkCreateGraphicsPipelines(device.handle, device.pipeline_cache, 1, &info, nullptr, &pipeline) : VK_SUCCESS;
+	for (const auto& stage : stages)
+		vkDestroyShaderModule(device.handle, stage.module, nullptr);
+	TRY(loaded);
+	VK_TRY(result, "creating the pipeline of {}", shaders.front().name);
+	device.nameObject(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline), shaders.front().name);
+	return Pipeline(device, pipeline, VK_PIPELINE_BIND_POINT_GRAPHICS);
+}
+
+} // namespace tessera

@@ -1,0 +1,88 @@
+// Pipelines: one layout for all (push constants and one bindless set), specialised by feature constants.
+#pragma once
+#include "gpu/device.h"
+
+#include <filesystem>
+#include <map>
+#include <span>
+
+namespace tessera
+{
+
+constexpr uint32_t kPushConstantBytes = 128;
+constexpr uint32_t kMaxTextures = 1024;
+
+// Specialisation constants by id; a shader uses those it declares.
+using Constants = std::map<uint32_t, uint32_t>;
+
+// The bindless set: binding 0 colour textures, 1 visibility payload, 2 visibility depth.
+class BindlessSet
+{
+public:
+	static Result<std::unique_ptr<BindlessSet>> create(Device& device);
+	~BindlessSet();
+	BindlessSet(const BindlessSet&) = delete;
+	BindlessSet& operator=(const BindlessSet&) = delete;
+
+	void writeTexture(uint32_t index, VkImageView view, VkSampler sampler);
+	void writeImage(uint32_t binding, VkImageView view);
+	VkPipelineLayout layout() const { return pipeline_layout_; }
+	VkDescriptorSet set() const { return set_; }
+
+private:
+	explicit BindlessSet(Device& device) : device_(device) {}
+	Device& device_;
+	VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
+	VkPipelineLayout pipeline_layout_ = VK_NULL_HANDLE;
+	VkDescriptorPool pool_ = VK_NULL_HANDLE;
+	VkDescriptorSet set_ = VK_NULL_HANDLE;
+};
+
+class Pipeline
+{
+public:
+	Pipeline() = default;
+	Pipeline(Device& device, VkPipeline handle, VkPipelineBindPoint bind_point) : device_(&device), handle_(handle), bind_point_(bind_point) {}
+	Pipeline(Pipeline&& other) noexcept { swap(other); }
+	Pipeline& operator=(Pipeline&& other) noexcept
+	{
+		swap(other);
+		return *this;
+	}
+	~Pipeline();
+	VkPipeline handle() const { return handle_; }
+	VkPipelineBindPoint bindPoint() const { return bind_point_; }
+
+private:
+	void swap(Pipeline& other) noexcept;
+	Device* device_ = nullptr;
+	VkPipeline handle_ = VK_NULL_HANDLE;
+	VkPipelineBindPoint bind_point_ = VK_PIPELINE_BIND_POINT_COMPUTE;
+};
+
+// A SPIR-V module and the stage that its file name tells (.comp, .mesh, .vert, .frag).
+struct Shader
+{
+	std::string name;
+	VkShaderStageFlagBits stage = VK_SHADER_STAGE_COMPUTE_BIT;
+	std::vector<uint32_t> words;
+};
+
+// The folder of the SPIR-V files: beside the program in a build, ../share/tessera/shaders in an installation.
+std::filesystem::path shaderFolder();
+// Errors: DeviceCannot when the file is missing or no SPIR-V.
+Result<Shader> loadShader(std::string_view name);
+
+Result<Pipeline> makeComputePipeline(Device& device, VkPipelineLayout layout, const Shader& shader, const Constants& constants);
+
+struct DrawState
+{
+	VkFormat color = VK_FORMAT_R32_UINT;
+	VkFormat depth = VK_FORMAT_D32_SFLOAT;
+	VkCullModeFlags cull = VK_CULL_MODE_NONE;
+};
+// A vertex or mesh shader and a fragment shader, drawing with reverse depth; viewport and scissor are dynamic.
+Result<Pipeline> makeDrawPipeline(Device& device, VkPipelineLayout layout, std::span<const Shader> shaders, const Constants& constants,
+								  const DrawState& state);
+
+} // namespace tessera

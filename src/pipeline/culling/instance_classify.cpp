@@ -1,0 +1,37 @@
+#include "culling/instance_classify.h"
+
+#include "pipeline/passes.h"
+#include "pipeline/uses.h"
+
+namespace tessera
+{
+
+static constexpr Use kUses[] = {
+	{ "view", Access::ComputeRead },
+	{ "instances", Access::ComputeRead },
+	{ "meshes", Access::ComputeRead },
+	{ "mesh_bounds", Access::ComputeRead, &kCulls },
+	{ "heads", Access::ComputeWrite },
+	{ "cluster_groups", Access::ComputeWrite },
+};
+
+static void record(PassContext& pass)
+{
+	InstanceClassifyArgs args = {};
+	args.view = pass.address("view");
+	args.instances = pass.address("instances");
+	args.meshes = pass.address("meshes");
+	args.mesh_bounds = pass.address("mesh_bounds");
+	args.heads = pass.address("heads");
+	args.cluster_groups = pass.address("cluster_groups");
+	args.instance_count = static_cast<uint32_t>(pass.input().sizes.instances);
+	args.round = pass.round();
+	args.round_count = pass.input().view.rounds;
+	pass.dispatchLoop(args, args.instance_count, 64);
+}
+
+static constexpr std::string_view kShaders[] = { "culling/instance_classify.comp" };
+
+const PassDesc kInstanceClassify = { "instance_classify", kUses, {}, kShaders, nullptr, record };
+
+}  // namespace tessera

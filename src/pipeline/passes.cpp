@@ -1,0 +1,15 @@
+#include "pipeline/passes.h"
+
+namespace tessera
+{
+
+std::span<const PassDesc* const> framePasses()
+{
+	static constexpr const PassDesc* kPasses[] = {
+		&kFrameBegin, &kInstanceClassify, &kClusterCull,  &kClusterClassify, &kTriangleSplit, &kBatchParts,
+		&kRateFit,    &kExpandTriangles,  &kDrawClusters, &kDrawBatches,     &kDrawIndexed,   &kShade,
+	};
+	return kPasses;
+}
+
+}  // namespace tessera

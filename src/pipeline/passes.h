@@ -1,0 +1,25 @@
+// Every pass of a frame, in execution order. One host file per pass, its stem that of its shader.
+#pragma once
+#include "plan/pass.h"
+
+#include <span>
+
+namespace tessera
+{
+
+extern const PassDesc kFrameBegin;
+extern const PassDesc kInstanceClassify;
+extern const PassDesc kClusterCull;
+extern const PassDesc kClusterClassify;
+extern const PassDesc kTriangleSplit;
+extern const PassDesc kBatchParts;
+extern const PassDesc kRateFit;
+extern const PassDesc kExpandTriangles;
+extern const PassDesc kDrawClusters;
+extern const PassDesc kDrawBatches;
+extern const PassDesc kDrawIndexed;
+extern const PassDesc kShade;
+
+std::span<const PassDesc* const> framePasses();
+
+}  // namespace tessera

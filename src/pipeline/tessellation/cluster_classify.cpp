@@ -1,0 +1,46 @@
+#include "tessellation/cluster_classify.h"
+
+#include "pipeline/passes.h"
+#include "pipeline/uses.h"
+
+namespace tessera
+{
+
+static constexpr Use kUses[] = {
+	{ "visible_clusters", Access::ComputeRead },
+	{ "view", Access::ComputeRead },
+	{ "instances", Access::ComputeRead },
+	{ "clusters", Access::ComputeRead },
+	{ "positions", Access::ComputeRead },
+	{ "triangles", Access::ComputeRead },
+	{ "heads", Access::ComputeWrite },
+	{ "counts", Access::ComputeWrite },
+	{ "full_clusters", Access::ComputeWrite },
+	{ "split_triangles", Access::ComputeWrite, &kSplits },
+	{ "part_triangles", Access::ComputeWrite },
+};
+
+static void record(PassContext& pass)
+{
+	ClusterClassifyArgs args = {};
+	args.view = pass.address("view");
+	args.instances = pass.address("instances");
+	args.clusters = pass.address("clusters");
+	args.positions = pass.address("positions");
+	args.triangles = pass.address("triangles");
+	args.heads = pass.address("heads");
+	args.counts = pass.address("counts");
+	args.visible_clusters = pass.address("visible_clusters");
+	args.full_clusters = pass.address("full_clusters");
+	args.split_triangles = pass.address("split_triangles");
+	args.part_triangles = pass.address("part_triangles");
+	args.rule = pass.factorRule();
+	pass.dispatchLoop(args, pass.capacity("visible_clusters"));
+}
+
+static constexpr const Condition* kNeeded[] = { &kTessellates };
+static constexpr std::string_view kShaders[] = { "tessellation/cluster_classify.comp" };
+
+const PassDesc kClusterClassify = { "cluster_classify", kUses, kNeeded, kShaders, nullptr, record };
+
+}  // namespace tessera

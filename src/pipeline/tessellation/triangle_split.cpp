@@ -1,0 +1,55 @@
+#include "tessellation/triangle_split.h"
+
+#include "pipeline/passes.h"
+#include "pipeline/uses.h"
+
+namespace tessera
+{
+
+static constexpr Use kUses[] = {
+	{ "visible_clusters", Access::ComputeRead },
+	{ "view", Access::ComputeRead },
+	{ "instances", Access::ComputeRead },
+	{ "clusters", Access::ComputeRead },
+	{ "positions", Access::ComputeRead },
+	{ "triangles", Access::ComputeRead },
+	{ "patterns", Access::ComputeRead },
+	{ "table_vertices", Access::ComputeRead },
+	{ "table_triangles", Access::ComputeRead },
+	{ "heads", Access::ComputeWrite },
+	{ "counts", Access::ComputeWrite },
+	{ "split_triangles", Access::ComputeWrite },
+	{ "part_triangles", Access::ComputeWrite },
+};
+
+static uint32_t levels(const PlanInput& input)
+{
+	return input.view.split_levels;
+}
+
+static void record(PassContext& pass)
+{
+	TriangleSplitArgs args = {};
+	args.view = pass.address("view");
+	args.instances = pass.address("instances");
+	args.clusters = pass.address("clusters");
+	args.positions = pass.address("positions");
+	args.triangles = pass.address("triangles");
+	args.heads = pass.address("heads");
+	args.counts = pass.address("counts");
+	args.visible_clusters = pass.address("visible_clusters");
+	args.split_triangles = pass.address("split_triangles");
+	args.part_triangles = pass.address("part_triangles");
+	args.table = tableView(pass);
+	args.rule = pass.factorRule();
+	args.level = pass.repeat();
+	args.last_level = pass.repeat() + 1 == levels(pass.input()) ? 1 : 0;
+	pass.dispatchLoop(args, pass.capacity("split_triangles"));
+}
+
+static constexpr const Condition* kNeeded[] = { &kSplits };
+static constexpr std::string_view kShaders[] = { "tessellation/triangle_split.comp" };
+
+const PassDesc kTriangleSplit = { "triangle_split", kUses, kNeeded, kShaders, levels, record };
+
+}  // namespace tessera

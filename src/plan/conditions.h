@@ -1,0 +1,39 @@
+// The conditions that passes and uses are kept under, each with what is said when it does not hold.
+#pragma once
+#include "plan/pass.h"
+
+namespace tessera
+{
+
+inline bool usesMesh(const PlanInput& input)
+{
+	return input.device.mesh_shader && input.options.raster != Raster::Indexed;
+}
+inline bool usesIndexed(const PlanInput& input)
+{
+	return input.options.raster == Raster::Indexed || (input.options.raster == Raster::Auto && !input.device.mesh_shader);
+}
+
+inline constexpr Condition kDisplaced = {
+	[](const PlanInput& input) { return input.scene.has_displacement && input.options.displacement_scale != 0; }, "no material displaces"
+};
+inline constexpr Condition kSeams = { [](const PlanInput& input) {
+										 return kDisplaced.holds(input) && input.scene.seam_edges + input.scene.seam_corners > 0;
+									 },
+									  "no displaced edge or corner lies on a seam" };
+inline constexpr Condition kTessellates = { [](const PlanInput& input) { return input.options.rate > 0 && input.view.factors_above_one; },
+											"no edge can get more than one segment at this rate and camera" };
+inline constexpr Condition kDoesNotTessellate = { [](const PlanInput& input) { return !kTessellates.holds(input); }, "cluster_classify writes it" };
+inline constexpr Condition kSplits = { [](const PlanInput& input) { return kTessellates.holds(input) && input.view.split_levels > 0; },
+									   "no edge can exceed the table at this rate and camera" };
+inline constexpr Condition kCulls = { [](const PlanInput& input) { return input.options.cull.any(); }, "culling is off" };
+inline constexpr Condition kMesh = { usesMesh, "another producer of visibility is chosen, or the device lacks VK_EXT_mesh_shader" };
+inline constexpr Condition kIndexed = { usesIndexed, "mesh shaders draw" };
+inline constexpr Condition kPrimitiveId = { [](const PlanInput& input) { return input.device.fragment_primitive_id; },
+											"the device lacks primitive ids in fragment shaders (geometryShader) or 32-bit indices" };
+inline constexpr Condition kColorTextures = { [](const PlanInput& input) { return input.scene.has_color_textures; },
+											  "no material has a base colour texture" };
+inline constexpr Condition kVertexColors = { [](const PlanInput& input) { return input.scene.has_vertex_colors; }, "no primitive has COLOR_0" };
+inline constexpr Condition kNormals = { [](const PlanInput& input) { return input.options.smooth_normals; }, "faceted shading needs no normals" };
+
+} // namespace tessera

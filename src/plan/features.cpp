@@ -1,0 +1,33 @@
+#include "plan/conditions.h"
+#include "plan/plan.h"
+
+namespace tessera
+{
+
+// Constant ids are those of shaders/lib/features.glsl.
+std::vector<Feature> shaderFeatures(const PlanInput& input)
+{
+	const auto feature = [&](std::string_view name, uint32_t id, bool on, std::string_view reason) {
+		return Feature{ name, id, on, on ? std::string_view{} : reason };
+	};
+	const auto conditional = [&](std::string_view name, uint32_t id, const Condition& condition) {
+		return feature(name, id, condition.holds(input), condition.reason_if_not);
+	};
+	const bool mixed_sides = input.scene.has_single_sided && input.scene.has_double_sided;
+	return {
+		conditional("HAS_DISPLACEMENT", 1, kDisplaced),
+		conditional("HAS_SEAMS", 2, kSeams),
+		feature("HAS_TESSELLATION", 3, input.options.rate > 0, "the rate is 0"),
+		conditional("HAS_COLOR_TEXTURES", 4, kColorTextures),
+		conditional("HAS_VERTEX_COLORS", 5, kVertexColors),
+		conditional("HAS_SMOOTH_NORMALS", 6, kNormals),
+		feature("HAS_CULLING", 7, input.options.cull.any(), "culling is off"),
+		feature("HAS_MIXED_SIDES", 8, mixed_sides, "all materials show the same sides"),
+		feature("HAS_MIRRORED_INSTANCES", 9, input.scene.has_mirrored_instances, "no instance is mirrored"),
+		feature("HAS_SINGLE_SIDED", 10, input.scene.has_single_sided, "every material is double-sided"),
+		feature("IS_SHADED_VIEW", 11, input.options.view == ViewMode::Shaded, "a debug view is chosen"),
+		feature("COUNTS_EXPANDED", 12, usesIndexed(input), "mesh shaders draw"),
+	};
+}
+
+} // namespace tessera

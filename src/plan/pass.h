@@ -1,0 +1,104 @@
+// What a pass declares, and what the planner knows about scene, options, device and view. No Vulkan.
+#pragma once
+#include "plan/render_options.h"
+#include "scene/scene.h"
+
+#include <span>
+#include <string_view>
+
+namespace tessera
+{
+
+class PassContext; // frame/pass_context.h: what a pass records with
+
+enum class Access : uint8_t
+{
+	ComputeRead,
+	ComputeWrite, // also appends: reads and writes
+	Indirect,     // indirect arguments
+	MeshRead,     // mesh shader
+	VertexRead,   // vertex shader
+	IndexRead,
+	FragmentRead,
+	Color, // colour attachment
+	Depth, // depth attachment
+	CopyRead,
+	CopyWrite,
+};
+
+bool writes(Access access);
+
+struct SceneSizes
+{
+	uint64_t vertices = 0, triangles = 0, clusters = 0, meshes = 0, instances = 0, materials = 0;
+	uint64_t instanced_clusters = 0;  // clusters over all instances
+	uint64_t height_texel_bytes = 0, color_texture_bytes = 0, seam_edges = 0, seam_corners = 0, height_maps = 0;
+};
+
+// What the planner needs of the device: the gates that decide passes.
+struct DeviceTraits
+{
+	bool mesh_shader = false;
+	bool fragment_primitive_id = false;
+	bool is_cpu = false;
+};
+
+// What the host knows of the view before it is drawn.
+struct ViewTraits
+{
+	bool factors_above_one = true; // false: no edge of the scene can reach factor 2 from here
+	uint32_t split_levels = 0;     // most levels of triangle_split that can occur; 0: no factor above the table
+	uint32_t rounds = 1;           // a frame in more than one round draws its clusters in turns (C2)
+};
+
+struct PlanInput
+{
+	RenderOptions options;
+	SceneTraits scene;
+	SceneSizes sizes;
+	DeviceTraits device;
+	ViewTraits view;
+};
+
+// Something that must hold for a pass or a use to be kept, and what is said when it does not.
+struct Condition
+{
+	bool (*holds)(const PlanInput& input);
+	std::string_view reason_if_not;
+};
+
+struct Use
+{
+	std::string_view resource;
+	Access access = Access::ComputeRead;
+	const Condition* when = nullptr; // nullptr: always
+};
+
+struct PassDesc
+{
+	std::string_view name; // timer label, report key, file stem
+	std::span<const Use> uses;
+	std::span<const Condition* const> needed;    // all must hold, else the pass is dropped with the reason
+	std::span<const std::string_view> shaders;   // SPIR-V files below shaders/; one compute shader, or the stages of a draw
+	uint32_t (*repeats)(const PlanInput& input); // nullptr: once
+	void (*record)(PassContext& pass);
+};
+
+// A shader feature: a specialisation constant that compiles code out.
+struct Feature
+{
+	std::string_view name; // constant's name in the shaders
+	uint32_t constant_id = 0;
+	bool on = false;
+	std::string_view reason; // why it is off
+};
+
+// A buffer or image that passes use: how large it is when kept.
+struct ResourceDesc
+{
+	std::string_view name;
+	std::string_view kind; // attribute, buffer, list, texture, image
+	uint64_t (*bytes)(const PlanInput& input);
+};
+
+} // namespace tessera

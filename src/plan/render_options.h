@@ -1,0 +1,56 @@
+// What the user may ask of a frame: the values behind the option table of app/options.h.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace tessera
+{
+
+enum class Raster : uint8_t
+{
+	Auto,
+	Mesh,
+	Indexed,
+};
+
+// Order shared with shaders/shading/shade.h (VIEW_*).
+enum class ViewMode : uint8_t
+{
+	Shaded,
+	Clusters,
+	Parts,
+	Triangles,
+	Factors,
+	Depth,
+	Normals,
+	Wireframe,
+	Facets,
+	Height,
+	Instances,
+	Materials,
+};
+
+// Kinds of culling, each can be switched off.
+struct CullOptions
+{
+	bool frustum = true;
+	bool backface = true; // whole clusters by their normal cone; single back faces are never shown in either case
+	bool any() const { return frustum || backface; }
+};
+
+struct RenderOptions
+{
+	float rate = 4;         // pixels per segment; 0 = off
+	uint32_t max_split = 8; // pieces per edge in one split
+	Raster raster = Raster::Auto;
+	CullOptions cull;
+	ViewMode view = ViewMode::Shaded;
+	float displacement_scale = 1;
+	bool smooth_normals = true; // false: faceted shading
+	uint32_t width_px = 1920;
+	uint32_t height_px = 1080;
+	std::map<std::string, uint32_t> capacities; // by list name
+};
+
+} // namespace tessera
