@@ -172,6 +172,13 @@ Status FrameResources::makeSurface(const FramePlan& plan)
 	return upload("surface", std::as_bytes(std::span(&surface, 1)));
 }
 
+Status FrameResources::makeShadingData(const FramePlan& plan)
+{
+	const auto kept = [&](std::string_view name) { return plan.keeps(name) ? address(name) : 0; };
+	const ShadingData shading = { kept("normals"), kept("color_uvs"), kept("colors"), kept("materials") };
+	return upload("shading", std::as_bytes(std::span(&shading, 1)));
+}
+
 Status FrameResources::makeImage(const ImageDesc& desc, uint32_t binding)
 {
 	TRY_ASSIGN(ImageResource made, ImageResource::create(device_, desc));
@@ -253,7 +260,7 @@ Status FrameResources::make(std::string_view name, const PlanInput& input)
 		return allocate(name, sizeof(FrameCounts));
 	if (name == "indexed_draw")
 		return allocate(name, 20);
-	CHECK(name == "heads" || name == "surface" || name == "height_texels", "nobody makes resource '{}'", name);
+	CHECK(name == "heads" || name == "surface" || name == "shading" || name == "height_texels", "nobody makes resource '{}'", name);
 	return {};
 }
 
@@ -271,6 +278,8 @@ Status FrameResources::prepare(const FramePlan& plan, const PlanInput& input)
 	}
 	if (!has("surface"))
 		TRY(makeSurface(plan));
+	if (!has("shading"))
+		TRY(makeShadingData(plan));
 	return lists_changed ? makeHeads() : Status{};
 }
 

@@ -52,6 +52,7 @@ private:
 	Status allocate(std::string_view name, uint64_t bytes);
 	Status makeHeads();
 	Status makeSurface(const FramePlan& plan);
+	Status makeShadingData(const FramePlan& plan);
 	Status makeHeightMaps();
 	Status makeTextures();
 	Status makeImage(const ImageDesc& desc, uint32_t binding);

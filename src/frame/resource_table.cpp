@@ -1,5 +1,6 @@
 // Names, kinds and sizes of all resources (what --print-plan says of them).
 #include "frame/frame_resources.h"
+#include "shading/material_record.h"
 
 namespace tessera
 {
@@ -63,6 +64,7 @@ constexpr ResourceDesc kResources[] = {
 	{ "table_triangles", "buffer", fixedBytes<8398 * 4> },
 	{ "view", "buffer", fixedBytes<sizeof(View)> },
 	{ "surface", "buffer", fixedBytes<sizeof(Surface)> },
+	{ "shading", "buffer", fixedBytes<sizeof(ShadingData)> },
 	{ "heads", "buffer", fixedBytes<LIST_COUNT * sizeof(ListHead)> },
 	{ "counts", "buffer", fixedBytes<sizeof(FrameCounts)> },
 	{ "cluster_groups", "list", ofList<LIST_CLUSTER_GROUPS> },

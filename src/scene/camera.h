@@ -1,5 +1,6 @@
 // Cameras, and the View that shaders and the CPU reference see: computed in double, rounded once.
 #pragma once
+#include "base/result.h"
 #include "scene/scene.h"
 
 #include <optional>

@@ -1,0 +1,80 @@
+// The micro-triangle that a visibility payload names, evaluated again by the function that its rasteriser used.
+#ifndef TESSERA_LIB_VISIBLE_TRIANGLE
+#define TESSERA_LIB_VISIBLE_TRIANGLE
+#include "shared/raster_inputs.h"
+
+struct VisibleTriangle
+{
+	uint instance;
+	uint cluster;   // global index
+	uint triangle;  // of the cluster
+	uint micro;     // of the part; 0 for full clusters
+	uint material;
+	uint largest_factor;
+	BaseTriangle base;
+	Placement placement;
+	DomainPiece piece;      // part triangle; the whole base triangle for full clusters
+	DomainPoint corners[3]; // of the micro-triangle, in the base triangle's winding
+	vec3 relative[3];       // the same, displaced and placed
+};
+
+DomainPiece wholeTriangle(uint visible, uint triangle)
+{
+	DomainPiece piece;
+	piece.c0 = domainCorner(0u);
+	piece.c1 = domainCorner(1u);
+	piece.c2 = domainCorner(2u);
+	piece.visible_cluster = visible;
+	piece.triangle = triangle;
+	piece.a = 1u;
+	piece.b = 1u;
+	piece.c = 1u;
+	piece.mirror = 0u;
+	return piece;
+}
+
+// Domain corners of the micro-triangle within its part.
+void findCorners(RasterInputs inputs, uint payload, inout VisibleTriangle visible)
+{
+	visible.corners[0] = visible.piece.c0;
+	visible.corners[1] = visible.piece.c1;
+	visible.corners[2] = visible.piece.c2;
+	visible.micro = 0u;
+	if (!HAS_TESSELLATION || payloadKind(payload) == KIND_FULL_CLUSTER)
+		return;
+	visible.micro = payloadTriangle(payload);
+	PatternRange pattern = inputs.table.patterns.at[patternIndex(visible.piece.a, visible.piece.b, visible.piece.c)];
+	uvec3 indices = patternTriangle(visible.micro, pattern, inputs.table, visible.piece.mirror);
+	uint edge_flags = triangleEdgeFlags(visible.base.flags);
+	for (uint i = 0u; i < 3u; ++i)
+		visible.corners[i] = patternPoint(visible.piece, indices[i], pattern, inputs.table, edge_flags);
+}
+
+VisibleTriangle visibleTriangle(RasterInputs inputs, uint payload)
+{
+	VisibleTriangle visible;
+	uint index = payloadIndex(payload);
+	bool is_part = HAS_TESSELLATION && payloadKind(payload) == KIND_PART_TRIANGLE;
+	if (is_part)
+		visible.piece = unpackTriangle(inputs.part_triangles.at[index]);
+	else
+		visible.piece = wholeTriangle(index, payloadTriangle(payload));
+	ClusterRef ref = inputs.visible_clusters.at[visible.piece.visible_cluster];
+	ClusterRecord cluster = inputs.clusters.at[ref.cluster];
+	visible.instance = ref.instance;
+	visible.cluster = ref.cluster;
+	visible.triangle = visible.piece.triangle;
+	visible.material = cluster.material;
+	visible.largest_factor = visible.piece.a;
+	visible.base = baseTriangle(inputs.surface.at[0], cluster, visible.triangle);
+	visible.placement = placementOf(inputs.instances.at[ref.instance], inputs.view.at[0]);
+	findCorners(inputs, payload, visible);
+	for (uint i = 0u; i < 3u; ++i)
+	{
+		SurfacePoint point = surfacePoint(inputs.surface.at[0], visible.base, visible.corners[i], visible.placement, inputs.view.at[0]);
+		visible.relative[i] = placed(visible.placement, point.displaced);
+	}
+	return visible;
+}
+
+#endif

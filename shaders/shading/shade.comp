@@ -1,0 +1,200 @@
+// shade: colour every pixel from the visibility image, whoever produced it.
+//
+//   in   visibility_depth, visibility_payload   depth 0 is background
+//   in   part_triangles, visible_clusters, surface, shading data
+//   out  picture   RGBA8, sRGB-encoded
+//   out  counts    covered_pixels
+//
+// The payload names a micro-triangle; its corners are evaluated again by the function that the rasteriser used, and the
+// pixel's ray gives the place within it. Debug views are made here too. One thread per pixel.
+// Host: src/pipeline/shading/shade.cpp   Test: tests/gpu/picture_test.cpp
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_EXT_nonuniform_qualifier : require
+#include "lib/features.glsl"
+#include "shading/shade.h"
+#include "lib/debug_colors.glsl"
+#include "lib/lighting.glsl"
+#include "lib/pixel_ray.glsl"
+#include "lib/shading_normal.glsl"
+#include "lib/visible_triangle.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(push_constant, scalar) uniform Args { ShadeArgs args; };
+layout(set = 0, binding = 0) uniform sampler2D color_textures[];
+layout(set = 0, binding = 1) uniform utexture2D visibility_payload;
+layout(set = 0, binding = 2) uniform texture2D visibility_depth;
+
+shared uint covered;
+
+// A pixel's place on the surface.
+struct SurfacePixel
+{
+	VisibleTriangle visible;
+	vec3 barycentrics;  // within the micro-triangle
+	vec3 weights;       // within the base triangle
+	vec3 normal;        // world space, unit, towards the eye
+	vec3 to_eye;        // world space, unit
+	float displacement;
+};
+
+vec3 weightsAt(VisibleTriangle visible, vec3 barycentrics)
+{
+	return domainWeights(visible.corners[0]) * barycentrics.x + domainWeights(visible.corners[1]) * barycentrics.y +
+	       domainWeights(visible.corners[2]) * barycentrics.z;
+}
+
+vec3 barycentricsAt(VisibleTriangle visible, vec2 pixel, View view)
+{
+	return planeBarycentrics(pixelRay(pixel, view), visible.relative[0], visible.relative[1], visible.relative[2]);
+}
+
+vec3 facetNormal(VisibleTriangle visible)
+{
+	return cross(visible.relative[1] - visible.relative[0], visible.relative[2] - visible.relative[0]);
+}
+
+// Mesh to world for normals: the cofactors of the linear part, which no scale can make singular by dividing.
+vec3 worldNormal(vec3 normal, Placement placement)
+{
+	mat3 cofactors = mat3(cross(placement.row1, placement.row2), cross(placement.row2, placement.row0), cross(placement.row0, placement.row1));
+	return vec3(dot(cofactors[0], normal), dot(cofactors[1], normal), dot(cofactors[2], normal));
+}
+
+vec3 smoothNormal(inout SurfacePixel pixel, View view)
+{
+	ShadingData shading = args.shading.at[0];
+	BaseTriangle base = pixel.visible.base;
+	vec3 authored = shading.normals.at[base.v0] * pixel.weights.x + shading.normals.at[base.v1] * pixel.weights.y +
+	                shading.normals.at[base.v2] * pixel.weights.z;
+	ShadingSurface surface = displacedNormal(args.inputs.surface.at[0], base, pixel.weights, authored, pixel.visible.placement, view);
+	pixel.displacement = surface.displacement;
+	return worldNormal(surface.normal, pixel.visible.placement);
+}
+
+SurfacePixel surfacePixel(uint payload, vec2 centre, View view)
+{
+	SurfacePixel pixel;
+	pixel.visible = visibleTriangle(args.inputs, payload);
+	pixel.barycentrics = insideBarycentrics(barycentricsAt(pixel.visible, centre, view));
+	pixel.weights = weightsAt(pixel.visible, pixel.barycentrics);
+	pixel.displacement = 0.0;
+	pixel.to_eye = -normalize(pixelRay(centre, view).direction);
+	vec3 normal = HAS_SMOOTH_NORMALS && args.view_mode != VIEW_FACETS ? smoothNormal(pixel, view) : facetNormal(pixel.visible);
+	pixel.normal = normalize(dot(normal, normal) > 0.0 ? normal : pixel.to_eye);
+	// Faceted normals and double-sided materials face the eye; smooth ones may lean a little behind the horizon.
+	vec3 facet = facetNormal(pixel.visible);
+	bool back = dot(facet, pixel.to_eye) < 0.0;
+	if (back == (dot(pixel.normal, facet) > 0.0))
+		pixel.normal = -pixel.normal;
+	return pixel;
+}
+
+vec2 colorUvAt(BaseTriangle base, vec3 weights)
+{
+	ShadingData shading = args.shading.at[0];
+	return shading.color_uvs.at[base.v0] * weights.x + shading.color_uvs.at[base.v1] * weights.y + shading.color_uvs.at[base.v2] * weights.z;
+}
+
+// Base colour texture, filtered by where the neighbouring pixels' rays meet the micro-triangle's plane.
+vec3 texturedColor(SurfacePixel pixel, uint texture_index, vec2 centre, View view)
+{
+	BaseTriangle base = pixel.visible.base;
+	vec2 uv = colorUvAt(base, pixel.weights);
+	vec2 uv_x = colorUvAt(base, weightsAt(pixel.visible, barycentricsAt(pixel.visible, centre + vec2(1.0, 0.0), view)));
+	vec2 uv_y = colorUvAt(base, weightsAt(pixel.visible, barycentricsAt(pixel.visible, centre + vec2(0.0, 1.0), view)));
+	return textureGrad(color_textures[nonuniformEXT(texture_index)], uv, uv_x - uv, uv_y - uv).rgb;
+}
+
+SurfaceColor materialColor(SurfacePixel pixel, vec2 centre, View view)
+{
+	ShadingData shading = args.shading.at[0];
+	MaterialRecord material = shading.materials.at[pixel.visible.material];
+	SurfaceColor color = SurfaceColor(material.base_color.rgb, material.emissive, material.metallic, material.roughness);
+	if (HAS_COLOR_TEXTURES && material.color_texture != NO_INDEX)
+		color.base *= texturedColor(pixel, material.color_texture, centre, view);
+	if (HAS_VERTEX_COLORS)
+	{
+		BaseTriangle base = pixel.visible.base;
+		color.base *= unpackUnorm4x8(shading.colors.at[base.v0]).rgb * pixel.weights.x + unpackUnorm4x8(shading.colors.at[base.v1]).rgb * pixel.weights.y +
+		              unpackUnorm4x8(shading.colors.at[base.v2]).rgb * pixel.weights.z;
+	}
+	return color;
+}
+
+// Distance, in pixels, to the nearest side of the micro-triangle (or of the base triangle).
+float sideDistance(vec3 at, vec3 at_x, vec3 at_y)
+{
+	vec3 per_pixel = max(sqrt((at_x - at) * (at_x - at) + (at_y - at) * (at_y - at)), vec3(1e-20));
+	vec3 distances = abs(at) / per_pixel;
+	return min(distances.x, min(distances.y, distances.z));
+}
+
+vec3 wireframe(vec3 color, SurfacePixel pixel, vec2 centre, View view)
+{
+	vec3 b = barycentricsAt(pixel.visible, centre, view);
+	vec3 b_x = barycentricsAt(pixel.visible, centre + vec2(1.0, 0.0), view);
+	vec3 b_y = barycentricsAt(pixel.visible, centre + vec2(0.0, 1.0), view);
+	float micro = sideDistance(b, b_x, b_y);
+	float base = sideDistance(weightsAt(pixel.visible, b), weightsAt(pixel.visible, b_x), weightsAt(pixel.visible, b_y));
+	color = mix(color * 0.15, color, smoothstep(0.3, 0.9, micro));
+	return mix(vec3(0.9, 0.45, 0.05), color, smoothstep(0.5, 1.1, base));
+}
+
+// Half-Lambert light from the eye, so that debug colours keep the shape visible.
+vec3 shaped(vec3 color, SurfacePixel pixel) { return color * (0.55 + 0.45 * max(dot(pixel.normal, pixel.to_eye), 0.0)); }
+
+vec3 debugColor(SurfacePixel pixel, float depth, vec2 centre, View view)
+{
+	VisibleTriangle visible = pixel.visible;
+	switch (args.view_mode)
+	{
+	case VIEW_CLUSTERS: return shaped(hashColor(clusterHash(visible)), pixel);
+	case VIEW_PARTS: return shaped(hashColor(partHash(visible)), pixel);
+	case VIEW_TRIANGLES: return shaped(hashColor(microHash(visible)), pixel);
+	case VIEW_FACTORS: return shaped(ramp(float(visible.largest_factor - 1u) / 10.0), pixel);
+	case VIEW_DEPTH: return vec3(clamp(log2(depth) / 12.0 + 1.0, 0.0, 1.0));
+	case VIEW_NORMALS: return pow(pixel.normal * 0.5 + 0.5, vec3(2.2));
+	case VIEW_HEIGHT: return ramp(0.5 + 0.5 * tanh(pixel.displacement * inversesqrt(pixel.visible.placement.inverse_scale_squared) * 12.0));
+	case VIEW_INSTANCES: return shaped(hashColor(hashNext(17u, visible.instance)), pixel);
+	case VIEW_MATERIALS: return shaped(hashColor(hashNext(29u, visible.material)), pixel);
+	case VIEW_WIREFRAME: return wireframe(vec3(0.55) * (0.3 + 0.7 * max(dot(pixel.normal, pixel.to_eye), 0.0)), pixel, centre, view);
+	default: return litColor(materialColor(pixel, centre, view), pixel.normal, pixel.to_eye);
+	}
+}
+
+void shadePixel(uvec2 place, View view)
+{
+	uint target = place.y * view.width_px + place.x;
+	vec2 centre = vec2(place) + 0.5;
+	float depth = texelFetch(visibility_depth, ivec2(place), 0).x;
+	if (depth == 0.0)
+	{
+		if (args.round == 0u)
+			args.picture.at[target] = encodePicture(background(pixelRay(centre, view).direction), true);
+		return;
+	}
+	atomicAdd(covered, 1u);
+	uint payload = texelFetch(visibility_payload, ivec2(place), 0).x;
+	if (args.round_count > 1u && payload == NO_INDEX)
+		return;
+	SurfacePixel pixel = surfacePixel(payload, centre, view);
+	if (IS_SHADED_VIEW)
+		args.picture.at[target] = encodePicture(litColor(materialColor(pixel, centre, view), pixel.normal, pixel.to_eye), true);
+	else
+		args.picture.at[target] = encodePicture(debugColor(pixel, depth, centre, view), args.view_mode == VIEW_FACETS);
+}
+
+void main()
+{
+	if (gl_LocalInvocationIndex == 0u)
+		covered = 0u;
+	barrier();
+	View view = args.inputs.view.at[0];
+	if (gl_GlobalInvocationID.x < view.width_px && gl_GlobalInvocationID.y < view.height_px)
+		shadePixel(gl_GlobalInvocationID.xy, view);
+	barrier();
+	if (gl_LocalInvocationIndex == 0u && covered > 0u)
+		atomicAdd(args.counts.at[0].covered_pixels, covered);
+}

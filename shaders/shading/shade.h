@@ -1,0 +1,37 @@
+// Arguments of shade.
+#ifndef TESSERA_SHADING_SHADE_H
+#define TESSERA_SHADING_SHADE_H
+#include "shading/material_record.h"
+#include "shared/lists.h"
+
+SHARED_BEGIN
+
+// Order of ViewMode in src/plan/render_options.h.
+#define VIEW_SHADED 0u
+#define VIEW_CLUSTERS 1u
+#define VIEW_PARTS 2u
+#define VIEW_TRIANGLES 3u
+#define VIEW_FACTORS 4u
+#define VIEW_DEPTH 5u
+#define VIEW_NORMALS 6u
+#define VIEW_WIREFRAME 7u
+#define VIEW_FACETS 8u
+#define VIEW_HEIGHT 9u
+#define VIEW_INSTANCES 10u
+#define VIEW_MATERIALS 11u
+
+struct ShadeArgs
+{
+	RasterInputs inputs;
+	GPU_PTR(ShadingData) shading;
+	GPU_PTR(uint) picture;  // RGBA8, sRGB-encoded
+	GPU_PTR(FrameCounts) counts;
+	uint view_mode;
+	uint round;
+	uint round_count;
+};
+SHARED_LAYOUT(ShadeArgs, 120, round_count, 112)
+
+SHARED_END
+
+#endif

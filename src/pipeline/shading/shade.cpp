@@ -1,0 +1,40 @@
+#include "shading/shade.h"
+
+#include "pipeline/passes.h"
+#include "pipeline/uses.h"
+
+namespace tessera
+{
+
+static constexpr auto kUses = joinUses(surfaceUses(Access::ComputeRead), partUses(Access::ComputeRead),
+                                       std::array<Use, 9>{ {
+										   { "shading", Access::ComputeRead },
+										   { "materials", Access::ComputeRead },
+										   { "normals", Access::ComputeRead, &kNormals },
+										   { "color_uvs", Access::ComputeRead, &kColorTextures },
+										   { "color_textures", Access::ComputeRead, &kColorTextures },
+										   { "colors", Access::ComputeRead, &kVertexColors },
+										   { "visibility_depth", Access::ComputeRead },
+										   { "visibility_payload", Access::ComputeRead },
+										   { "counts", Access::ComputeWrite },
+									   } },
+                                       std::array<Use, 1>{ { { "picture", Access::ComputeWrite } } });
+
+static void record(PassContext& pass)
+{
+	ShadeArgs args = {};
+	args.inputs = rasterInputs(pass);
+	args.shading = pass.address("shading");
+	args.picture = pass.address("picture");
+	args.counts = pass.address("counts");
+	args.view_mode = static_cast<uint32_t>(pass.input().options.view);
+	args.round = pass.round();
+	args.round_count = pass.input().view.rounds;
+	pass.dispatch(args, (pass.input().options.width_px + 7) / 8, (pass.input().options.height_px + 7) / 8);
+}
+
+static constexpr std::string_view kShaders[] = { "shading/shade.comp" };
+
+const PassDesc kShade = { "shade", kUses, {}, kShaders, nullptr, record };
+
+}  // namespace tessera
