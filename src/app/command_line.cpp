@@ -1,0 +1,141 @@
+#include "app/command_line.h"
+
+#include "app/option_text.h"
+#include "scene/builtin.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+namespace tessera
+{
+
+namespace
+{
+
+struct CommandDesc
+{
+	Command command;
+	std::string_view name, help;
+};
+
+constexpr CommandDesc kCommands[] = {
+	{ Command::Render, "render", "draw one picture of SCENE" },
+	{ Command::Export, "export", "write SCENE as one .glb file" },
+	{ Command::Info, "info", "what the device offers, what SCENE needs, what is left out and why" },
+};
+
+std::string sceneHelp()
+{
+	std::string text = "SCENE is a .gltf or .glb file, or one of\n";
+	for (const BuiltinScene& scene : builtinScenes())
+		text += fmt::format("  {:<28}  {}\n", fmt::format("builtin:{}{}", scene.name, scene.default_count ? "[:COUNT]" : ""), scene.help);
+	return text;
+}
+
+void addCommandOptions(CLI::App& app, CommandLine& line)
+{
+	app.add_option("SCENE", line.scene, line.command == Command::Render ? "default: the first built-in scene" : "");
+	if (line.command != Command::Info)
+		app.add_option("-o,--output", line.output, line.command == Command::Render ? "picture (default tessera.png)" : "file to write")
+			->type_name("FILE");
+	if (line.command == Command::Render)
+		app.add_option("--stats", line.stats, "counts and times as JSON; - is standard output")->type_name("FILE|-");
+	if (line.command == Command::Export)
+		app.add_flag("--base", line.base, "the scene as loaded, before tessellation");
+	if (line.command == Command::Info)
+	{
+		app.add_flag("--print-plan", line.print_plan, "passes, barriers and resources of a frame, and why the others are left out");
+		app.add_flag("--json", line.json, "as JSON");
+	}
+}
+
+// Rows of the table are read as text here and understood by setOption, so that errors are ours.
+void addSharedOptions(CLI::App& app, AppOptions& options, Status& status)
+{
+	for (const OptionDesc& option : optionTable())
+	{
+		const std::string name = "--" + std::string(option.name);
+		const auto set = [&option, &options, &status](const std::string& text) {
+			if (status)
+				status = setOption(option, text, options);
+		};
+		if (option.value.empty())
+			app.add_flag_callback(name, [set] { set(""); })->group("");
+		else
+			app.add_option(name,
+						   [set](const CLI::results_t& values) {
+							   std::for_each(values.begin(), values.end(), set);
+							   return true;
+						   })
+				->expected(1)
+				->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+				->group("");
+	}
+}
+
+std::string mainHelp()
+{
+	std::string text = "tessera draws displaced glTF models with as many triangles as the picture needs.\n\n"
+					   "Usage: tessera COMMAND [SCENE] [OPTIONS]\n\nCommands (tessera COMMAND --help says more)\n";
+	for (const CommandDesc& command : kCommands)
+		text += fmt::format("  {:<28}  {}\n", command.name, command.help);
+	text += fmt::format("  {:<28}  {}\n  {:<28}  {}\n", "--version", "", "--help", "");
+	return text + "\n" + sceneHelp() + "\nOptions of every command\n" + optionsHelp();
+}
+
+Result<CommandLine> parseCommand(const CommandDesc& command, std::vector<std::string> arguments)
+{
+	CommandLine line;
+	line.command = command.command;
+	Status status;
+	CLI::App app{ std::string(command.help), "tessera " + std::string(command.name) };
+	app.get_formatter()->column_width(30);
+	addCommandOptions(app, line);
+	addSharedOptions(app, line.options, status);
+	app.footer("\n" + sceneHelp() + "\nOptions of every command\n" + optionsHelp());
+	try
+	{
+		std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them last first
+		app.parse(arguments);
+	}
+	catch (const CLI::CallForHelp&)
+	{
+		line.command = Command::ShowText;
+		line.text = app.help();
+		return line;
+	}
+	catch (const CLI::ParseError& error)
+	{
+		return fail(ExitCode::Usage, "{}: {}; `tessera {} --help` lists what it takes", command.name, error.what(), command.name);
+	}
+	TRY(status);
+	return line;
+}
+
+}  // namespace
+
+Result<CommandLine> parseCommandLine(const std::vector<std::string>& arguments)
+{
+	std::vector<std::string_view> names;
+	for (const CommandDesc& command : kCommands)
+		names.push_back(command.name);
+	if (arguments.empty())
+		return fail(ExitCode::Usage, "no command is given; commands are {}; `tessera --help` says more", joinNames(names));
+	CommandLine line;
+	if (arguments[0] == "--version")
+	{
+		line.text = "tessera " TESSERA_VERSION "\n";
+		return line;
+	}
+	if (arguments[0] == "--help" || arguments[0] == "-h")
+	{
+		line.text = mainHelp();
+		return line;
+	}
+	for (const CommandDesc& command : kCommands)
+		if (command.name == arguments[0])
+			return parseCommand(command, { arguments.begin() + 1, arguments.end() });
+	return fail(ExitCode::Usage, "{}: there is no such command; commands are {}; `tessera --help` says more", arguments[0], joinNames(names));
+}
+
+}  // namespace tessera

@@ -1,0 +1,30 @@
+// The command line: which command, on what, with which options.
+#pragma once
+#include "app/options.h"
+
+namespace tessera
+{
+
+enum class Command : uint8_t
+{
+	ShowText,  // --help, --version
+	Render,
+	Export,
+	Info,
+};
+
+struct CommandLine
+{
+	Command command = Command::ShowText;
+	std::string text;   // of ShowText
+	std::string scene;  // file or builtin:name; empty: none given
+	std::string output;
+	std::string stats;  // file, "-" = standard output, empty = none
+	bool base = false, print_plan = false, json = false;
+	AppOptions options;
+};
+
+// `arguments` without the program's name. Errors: Usage, one line that names the argument and says what would be right.
+Result<CommandLine> parseCommandLine(const std::vector<std::string>& arguments);
+
+}  // namespace tessera

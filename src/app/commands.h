@@ -1,0 +1,20 @@
+// The commands of the program.
+#pragma once
+#include "app/command_line.h"
+
+namespace tessera
+{
+
+// Draws --warmup and --frames frames; writes the picture of the last and its stats.
+Status renderCommand(const CommandLine& line);
+
+// Writes the scene as loaded (--base) as .glb.
+Status exportCommand(const CommandLine& line);
+
+// Prints device, scene and plan on standard output.
+Status infoCommand(const CommandLine& line);
+
+// Parses and runs; prints an error as one line. Returns the exit code.
+int runProgram(const std::vector<std::string>& arguments);
+
+}  // namespace tessera

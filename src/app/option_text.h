@@ -1,0 +1,42 @@
+// Numbers and tuples as the command line writes them. Errors say what would be right, without the option's name.
+#pragma once
+#include "base/result.h"
+#include "base/vec.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tessera
+{
+
+// A whole number of the range, or nothing: no sign, no blanks, nothing after it.
+std::optional<uint32_t> readCount(std::string_view text, uint32_t least, uint32_t most);
+
+// A finite number with nothing after it.
+std::optional<double> readNumber(std::string_view text);
+
+// "4x3": two whole numbers, each of the range.
+std::optional<std::array<uint32_t, 2>> readPair(std::string_view text, uint32_t least, uint32_t most);
+
+// "x,y,z": three finite numbers.
+std::optional<dvec3> readVector(std::string_view text);
+std::string printVector(const dvec3& vector);
+
+std::vector<std::string_view> splitAt(std::string_view text, char separator);
+
+template <typename Names>
+std::string joinNames(const Names& names)
+{
+	std::string text;
+	for (const auto& name : names)
+		text += (text.empty() ? "" : ", ") + std::string(name);
+	return text;
+}
+
+// As short as it can be while reading back as the same float.
+double shortest(float value);
+
+}  // namespace tessera

@@ -1,0 +1,377 @@
+#include "app/options.h"
+
+#include "app/option_text.h"
+#include "frame/lists.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tessera
+{
+
+using nlohmann::ordered_json;
+
+namespace
+{
+
+constexpr uint32_t kMostExtent = 65536;  // of a picture; the device may take less
+constexpr uint32_t kMostCopies = 4096;   // of the scene, per direction
+constexpr double kMostLength = 1e30;     // world units
+
+constexpr std::string_view kRasterNames[] = { "auto", "mesh", "indexed" };
+constexpr std::string_view kMetricNames[] = { "edge" };
+constexpr std::string_view kShadingNames[] = { "smooth", "flat" };
+constexpr std::string_view kViewNames[] = { "shaded",  "clusters",  "parts",  "triangles", "factors",   "depth",
+											"normals", "wireframe", "facets", "height",    "instances", "materials" };
+
+template <auto field>
+constexpr Choice choiceOf(std::span<const std::string_view> names)
+{
+	using Enum = std::remove_cvref_t<decltype(std::declval<AppOptions>().*field)>;
+	return { names, [](const AppOptions& options) { return static_cast<size_t>(options.*field); },
+			 [](AppOptions& options, size_t index) {
+				 options.*field = static_cast<Enum>(index);
+			 } };
+}
+
+template <auto first, auto second>
+std::vector<std::string> printPair(const AppOptions& options)
+{
+	return { fmt::format("{}x{}", options.*first, options.*second) };
+}
+
+template <auto first, auto second>
+ordered_json pairJson(const AppOptions& options)
+{
+	return { options.*first, options.*second };
+}
+
+template <auto first, auto second, uint32_t most>
+Status parsePair(AppOptions& options, std::string_view text)
+{
+	const auto pair = readPair(text, 1, most);
+	if (!pair)
+		return fail(ExitCode::Usage, "two numbers from 1 to {} are right, such as {}", most, printPair<first, second>({})[0]);
+	options.*first = (*pair)[0];
+	options.*second = (*pair)[1];
+	return {};
+}
+
+template <auto first, auto second, uint32_t most>
+constexpr Custom pairOf()
+{
+	return { parsePair<first, second, most>, printPair<first, second>, pairJson<first, second> };
+}
+
+Status parseClusterSize(AppOptions& options, std::string_view text)
+{
+	const auto size = readPair(text, 3, 128);
+	if (!size || (*size)[1] % 4 != 0)
+		return fail(ExitCode::Usage, "VERTICESxTRIANGLES is right: 3 to 128 vertices, 4 to 128 triangles, a multiple of 4, such as 64x64");
+	options.cluster_vertices = (*size)[0];
+	options.cluster_triangles = (*size)[1];
+	return {};
+}
+
+struct CullKind
+{
+	std::string_view name;
+	bool CullOptions::*field;
+};
+constexpr CullKind kCullKinds[] = { { "frustum", &CullOptions::frustum }, { "backface", &CullOptions::backface } };
+
+Status parseCull(AppOptions& options, std::string_view text)
+{
+	CullOptions cull = { text == "on", text == "on" };
+	if (text != "on" && text != "off")
+		for (std::string_view part : splitAt(text, ','))
+		{
+			const auto kind = std::find_if(std::begin(kCullKinds), std::end(kCullKinds), [&](const CullKind& k) { return k.name == part; });
+			if (kind == std::end(kCullKinds))
+				return fail(ExitCode::Usage, "on, off, or some of frustum,backface is right");
+			cull.*kind->field = true;
+		}
+	options.cull = cull;
+	return {};
+}
+
+std::vector<std::string> cullKinds(const AppOptions& options)
+{
+	std::vector<std::string> kinds;
+	for (const CullKind& kind : kCullKinds)
+		if (options.cull.*kind.field)
+			kinds.emplace_back(kind.name);
+	return kinds;
+}
+
+std::vector<std::string> printCull(const AppOptions& options)
+{
+	const std::vector<std::string> kinds = cullKinds(options);
+	if (kinds.size() == std::size(kCullKinds))
+		return { "on" };
+	return { kinds.empty() ? "off" : fmt::format("{}", fmt::join(kinds, ",")) };
+}
+
+Status parseCapacity(AppOptions& options, std::string_view text)
+{
+	const size_t equals = text.find('=');
+	const std::string_view name = text.substr(0, equals);
+	std::vector<std::string_view> names;
+	for (const ListDesc& list : listDescs())
+		names.push_back(list.name);
+	const std::optional<uint32_t> count = equals == std::string_view::npos ? std::nullopt : readCount(text.substr(equals + 1), 1, 1u << 28);
+	if (!count || !findList(name))
+		return fail(ExitCode::Usage, "NAME=COUNT is right, COUNT from 1 to {}, NAME one of {}", 1u << 28, joinNames(names));
+	options.capacities[std::string(name)] = *count;
+	return {};
+}
+
+std::vector<std::string> printCapacities(const AppOptions& options)
+{
+	std::vector<std::string> values;
+	for (const auto& [name, count] : options.capacities)
+		values.push_back(fmt::format("{}={}", name, count));
+	return values;
+}
+
+ordered_json capacitiesJson(const AppOptions& options)
+{
+	ordered_json json = ordered_json::object();
+	for (const auto& [name, count] : options.capacities)
+		json[name] = count;
+	return json;
+}
+
+const std::array kTable = {
+	OptionDesc{ "size", "WxH", "picture, in pixels", pairOf<&AppOptions::width_px, &AppOptions::height_px, kMostExtent>(), 0, 0, Rebuild::Buffers },
+	OptionDesc{ "eye", "X,Y,Z", "where the camera is, in world units", &AppOptions::eye },
+	OptionDesc{ "target", "X,Y,Z", "what the camera looks at; default with --eye: the middle of the scene", &AppOptions::target },
+	OptionDesc{ "up", "X,Y,Z", "what is up in the picture", &AppOptions::up },
+	OptionDesc{ "fov", "DEGREES", "vertical field of view", &AppOptions::fov_deg, 0.01, 179 },
+	OptionDesc{ "near", "DISTANCE", "nothing nearer is drawn; default: radius of the scene / 1000", &AppOptions::near_world, 1e-6, kMostLength },
+	OptionDesc{ "camera", "N", "the scene's N-th camera, from 0; default: frame the scene, built-in scenes use their own", &AppOptions::camera, 0,
+				4e9 },
+	OptionDesc{ "grid", "COLUMNSxROWS", "copies of the scene; geometry is shared",
+				pairOf<&AppOptions::grid_columns, &AppOptions::grid_rows, kMostCopies>(), 0, 0, Rebuild::Scene },
+	OptionDesc{ "grid-u", "X,Y,Z", "step from column to column; default: a little more than the scene's width along x", &AppOptions::grid_u, 0, 0,
+				Rebuild::Scene },
+	OptionDesc{ "grid-v", "X,Y,Z", "step from row to row; default: a little more than the scene's depth along -z", &AppOptions::grid_v, 0, 0,
+				Rebuild::Scene },
+	OptionDesc{ "rate", "PIXELS", "tessellation rate: wanted segment length; 0 = do not tessellate", &AppOptions::rate, 0, 1e6, Rebuild::Pipelines },
+	OptionDesc{ "metric", "NAME", "edge factor: edge = length / distance", choiceOf<&AppOptions::metric>(kMetricNames), 0, 0, Rebuild::Pipelines },
+	OptionDesc{ "raster", "NAME", "who finds visibility; auto takes mesh where the device has mesh shaders",
+				choiceOf<&AppOptions::raster>(kRasterNames), 0, 0, Rebuild::Buffers },
+	OptionDesc{ "cull", "on|off|LIST", "kinds of culling: frustum,backface",
+				Custom{ parseCull, printCull,
+						[](const AppOptions& options) {
+							return ordered_json(cullKinds(options));
+						} },
+				0, 0, Rebuild::Pipelines },
+	OptionDesc{ "max-split", "PIECES", "most pieces per edge in one split", &AppOptions::max_split, 2, 11, Rebuild::Pipelines },
+	OptionDesc{ "capacity", "NAME=COUNT", "entries that one list holds (for tests and memory limits)",
+				Custom{ parseCapacity, printCapacities, capacitiesJson }, 0, 0, Rebuild::Buffers, true },
+	OptionDesc{ "displacement", "IMAGE[:FACTOR[:OFFSET[:MATERIAL]]]", "height map for a material, or for all", &AppOptions::displacements, 0, 0,
+				Rebuild::Scene, true },
+	OptionDesc{ "displacement-scale", "SCALE", "scales every displacement; 0 = none", &AppOptions::displacement_scale, -1e6, 1e6,
+				Rebuild::Pipelines },
+	OptionDesc{ "view", "NAME", "what the picture shows", choiceOf<&AppOptions::view>(kViewNames), 0, 0, Rebuild::Pipelines },
+	OptionDesc{ "shading", "NAME", "normals of the shaded view: smooth under any rate, or flat per micro-triangle",
+				Choice{ kShadingNames, [](const AppOptions& options) { return size_t(options.smooth_normals ? 0 : 1); },
+						[](AppOptions& options, size_t index) {
+							options.smooth_normals = index == 0;
+						} },
+				0, 0, Rebuild::Pipelines },
+	OptionDesc{ "cluster-size", "VERTICESxTRIANGLES", "most of each in a cluster, up to 128x128",
+				Custom{ parseClusterSize, printPair<&AppOptions::cluster_vertices, &AppOptions::cluster_triangles>,
+						pairJson<&AppOptions::cluster_vertices, &AppOptions::cluster_triangles> },
+				0, 0, Rebuild::Scene },
+	OptionDesc{ "table", "FILE", "tessellation table; default: the built-in one", &AppOptions::table, 0, 0, Rebuild::Buffers },
+	OptionDesc{ "frames", "N", "frames to draw and time", &AppOptions::frames, 1, 1e6 },
+	OptionDesc{ "warmup", "N", "frames to draw before those", &AppOptions::warmup, 0, 1e6 },
+	OptionDesc{ "device", "NAME|N", "part of a device's name, or its number; default: the fastest kind there is", &AppOptions::device, 0, 0,
+				Rebuild::Device },
+	OptionDesc{ "validate", "", "run under the Vulkan validation layer; any message: exit code 6", &AppOptions::validate, 0, 0, Rebuild::Device },
+	OptionDesc{ "strict", "", "do not coarsen a frame whose lists would overflow: exit code 5", &AppOptions::strict },
+	OptionDesc{ "quiet", "", "warnings and errors only", &AppOptions::quiet },
+};
+
+template <typename... Cases>
+struct Overload : Cases...
+{
+	using Cases::operator()...;
+};
+
+template <typename... Args>
+Status wrong(const OptionDesc& option, std::string_view text, fmt::format_string<Args...> format, Args&&... args)
+{
+	return fail(ExitCode::Usage, "--{} {}: {}", option.name, text, fmt::format(format, std::forward<Args>(args)...));
+}
+
+Status setCount(const OptionDesc& option, std::string_view text, uint32_t& value)
+{
+	const auto least = static_cast<uint32_t>(option.least), most = static_cast<uint32_t>(option.most);
+	const std::optional<uint32_t> count = readCount(text, least, most);
+	if (!count)
+		return wrong(option, text, "a whole number from {} to {} is right", least, most);
+	value = *count;
+	return {};
+}
+
+Result<double> numberFor(const OptionDesc& option, std::string_view text)
+{
+	const std::optional<double> number = readNumber(text);
+	if (!number || *number < option.least || *number > option.most)
+		TRY(wrong(option, text, "a number from {} to {} is right", option.least, option.most));
+	return *number;
+}
+
+Status setChoice(const OptionDesc& option, std::string_view text, const Choice& choice, AppOptions& options)
+{
+	const auto found = std::find(choice.names.begin(), choice.names.end(), text);
+	if (found == choice.names.end())
+		return wrong(option, text, "{}{} is right", choice.names.size() > 1 ? "one of " : "", joinNames(choice.names));
+	choice.set(options, static_cast<size_t>(found - choice.names.begin()));
+	return {};
+}
+
+ordered_json optionJson(const OptionDesc& option, const AppOptions& options)
+{
+	return std::visit(
+		Overload{
+			[&](float AppOptions::*field) { return ordered_json(shortest(options.*field)); },
+			[&](const Choice& choice) { return ordered_json(choice.names[choice.get(options)]); },
+			[&](const Custom& custom) { return custom.json(options); },
+			[&](std::optional<dvec3> AppOptions::*field) {
+				const std::optional<dvec3>& vector = options.*field;
+				return vector ? ordered_json{ vector->x, vector->y, vector->z } : ordered_json();
+			},
+			[&]<typename T>(std::optional<T> AppOptions::*field) { return options.*field ? ordered_json(*(options.*field)) : ordered_json(); },
+			[&](auto field) { return ordered_json(options.*field); },
+		},
+		option.field);
+}
+
+std::string jsonKey(std::string_view name)
+{
+	std::string key(name);
+	std::replace(key.begin(), key.end(), '-', '_');
+	return key;
+}
+
+// " (default 4; 0 to 1000000)"; choices are listed.
+std::string remarks(const OptionDesc& option)
+{
+	std::vector<std::string> parts;
+	if (const Choice* choice = std::get_if<Choice>(&option.field); choice && choice->names.size() > 1)
+		parts.push_back(joinNames(choice->names));
+	if (option.most > option.least && option.most < kMostLength)
+		parts.push_back(fmt::format("{} to {}", option.least, option.most));
+	const std::vector<std::string> values = printOption(option, {});
+	if (values.size() == 1 && !values[0].empty())
+		parts.push_back("default " + values[0]);
+	if (option.repeatable)
+		parts.emplace_back("repeatable");
+	return parts.empty() ? "" : fmt::format(" ({})", fmt::join(parts, "; "));
+}
+
+}  // namespace
+
+std::span<const OptionDesc> optionTable()
+{
+	return kTable;
+}
+
+const OptionDesc* findOption(std::string_view name)
+{
+	const auto found = std::find_if(kTable.begin(), kTable.end(), [&](const OptionDesc& option) { return option.name == name; });
+	return found == kTable.end() ? nullptr : &*found;
+}
+
+Status setOption(const OptionDesc& option, std::string_view text, AppOptions& options)
+{
+	return std::visit(Overload{
+						  [&](bool AppOptions::*field) -> Status {
+							  options.*field = true;
+							  return {};
+						  },
+						  [&](uint32_t AppOptions::*field) { return setCount(option, text, options.*field); },
+						  [&](std::optional<uint32_t> AppOptions::*field) { return setCount(option, text, (options.*field).emplace()); },
+						  [&](float AppOptions::*field) -> Status {
+							  TRY_ASSIGN(const double number, numberFor(option, text));
+							  options.*field = static_cast<float>(number);
+							  return {};
+						  },
+						  [&](std::optional<double> AppOptions::*field) -> Status {
+							  TRY_ASSIGN(options.*field, numberFor(option, text));
+							  return {};
+						  },
+						  [&](std::optional<dvec3> AppOptions::*field) -> Status {
+							  options.*field = readVector(text);
+							  return options.*field ? Status() : wrong(option, text, "three numbers are right, such as 0,1.5,-2");
+						  },
+						  [&](std::string AppOptions::*field) -> Status {
+							  options.*field = text;
+							  return text.empty() ? wrong(option, "\"\"", "{} is right", option.value) : Status();
+						  },
+						  [&](std::vector<std::string> AppOptions::*field) -> Status {
+							  (options.*field).emplace_back(text);
+							  return text.empty() ? wrong(option, "\"\"", "{} is right", option.value) : Status();
+						  },
+						  [&](const Choice& choice) { return setChoice(option, text, choice, options); },
+						  [&](const Custom& custom) -> Status {
+							  const Status status = custom.parse(options, text);
+							  return status ? status : wrong(option, text, "{}", status.error().message);
+						  },
+					  },
+					  option.field);
+}
+
+std::vector<std::string> printOption(const OptionDesc& option, const AppOptions& options)
+{
+	using Values = std::vector<std::string>;
+	return std::visit(
+		Overload{
+			[&](bool AppOptions::*field) { return options.*field ? Values{ "" } : Values{}; },
+			[&](const Choice& choice) { return Values{ std::string(choice.names[choice.get(options)]) }; },
+			[&](const Custom& custom) { return custom.print(options); },
+			[&](std::vector<std::string> AppOptions::*field) { return options.*field; },
+			[&](std::string AppOptions::*field) { return (options.*field).empty() ? Values{} : Values{ options.*field }; },
+			[&](std::optional<dvec3> AppOptions::*field) { return options.*field ? Values{ printVector(*(options.*field)) } : Values{}; },
+			[&]<typename T>(std::optional<T> AppOptions::*field) {
+				return options.*field ? Values{ fmt::format("{}", *(options.*field)) } : Values{};
+			},
+			[&](auto field) { return Values{ fmt::format("{}", options.*field) }; },
+		},
+		option.field);
+}
+
+ordered_json optionsJson(const AppOptions& options)
+{
+	ordered_json json;
+	for (const OptionDesc& option : kTable)
+		json[jsonKey(option.name)] = optionJson(option, options);
+	return json;
+}
+
+std::string optionsHelp()
+{
+	std::string text;
+	for (const OptionDesc& option : kTable)
+	{
+		const std::string head = fmt::format("--{} {}", option.name, option.value);
+		const std::string_view gap = head.size() > 28 ? "\n                                " : "  ";
+		text += fmt::format("  {:<28}{}{}{}\n", head, gap, option.help, remarks(option));
+	}
+	return text;
+}
+
+Rebuild staleAfter(const AppOptions& before, const AppOptions& after)
+{
+	Rebuild most = Rebuild::Nothing;
+	for (const OptionDesc& option : kTable)
+		if (optionJson(option, before) != optionJson(option, after))
+			most = std::max(most, option.rebuild);
+	return most;
+}
+
+}  // namespace tessera

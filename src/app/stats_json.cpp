@@ -1,0 +1,188 @@
+#include "app/stats_json.h"
+
+#include "base/file.h"
+#include "pipeline/passes.h"
+#include "plan/conditions.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace tessera
+{
+
+using nlohmann::ordered_json;
+
+namespace
+{
+
+ordered_json timesJson(const TimeSeries& series)
+{
+	return { { "median", series.median() }, { "min", series.least() }, { "max", series.most() } };
+}
+
+ordered_json frameJson(const RunFacts& facts)
+{
+	const FrameResult& last = facts.series.last;
+	const FrameCountsRead& counts = last.counts;
+	return {
+		{ "frames", facts.series.frame.gpu_ms.size() },
+		{ "gpu_ms", timesJson(facts.series.frame) },
+		{ "raster", usesMesh(facts.input) ? "mesh" : "indexed" },
+		{ "rate_wanted", last.rate_wanted },
+		{ "rate_granted", last.rate_granted },
+		{ "coarsening", last.coarsening },
+		{ "every_factor_one", last.every_factor_one },
+		{ "rounds", last.rounds },
+		{ "attempts", last.attempts },
+		{ "visible_clusters", counts.visible_clusters },
+		{ "full_clusters", counts.full_clusters },
+		{ "part_triangles", counts.part_triangles },
+		{ "split_triangles", counts.split_triangles },
+		{ "micro_triangles", counts.micro_triangles },
+		{ "covered_pixels", counts.covered_pixels },
+	};
+}
+
+// Every pass there is, in execution order: its time, or why it did not run.
+ordered_json passesJson(const RunFacts& facts)
+{
+	ordered_json json = ordered_json::object();
+	for (const PassDesc* pass : framePasses())
+	{
+		const std::string name(pass->name);
+		const auto found = facts.series.passes.find(name);
+		if (found != facts.series.passes.end())
+			json[name]["gpu_ms"] = timesJson(found->second);
+		else
+			json[name]["dropped"] = facts.plan.reason(name);
+	}
+	return json;
+}
+
+ordered_json listsJson(const FrameResult& result)
+{
+	ordered_json json = ordered_json::object();
+	for (const ListStats& list : result.lists)
+		json[list.name] = {
+			{ "wanted", list.wanted }, { "capacity", list.capacity }, { "peak", list.peak }, { "bytes", list.bytes }, { "peak_used", list.peak_used },
+		};
+	return json;
+}
+
+ordered_json vectorJson(const dvec3& vector)
+{
+	return ordered_json::array({ vector.x, vector.y, vector.z });
+}
+
+ordered_json cameraJson(const Camera& camera, const BuiltScene& scene)
+{
+	ordered_json json = {
+		{ "eye", vectorJson(camera.eye) },       { "target", vectorJson(camera.target) }, { "up", vectorJson(camera.up) },
+		{ "near", nearDistance(camera, scene) }, { "orthographic", camera.orthographic },
+	};
+	if (camera.orthographic)
+		json["height"] = camera.height_world;
+	else
+		json["fov"] = glm::degrees(camera.fov_y_rad);
+	return json;
+}
+
+}  // namespace
+
+double TimeSeries::median() const
+{
+	if (gpu_ms.empty())
+		return 0;
+	std::vector<double> sorted = gpu_ms;
+	std::sort(sorted.begin(), sorted.end());
+	const size_t middle = sorted.size() / 2;
+	return sorted.size() % 2 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2;
+}
+
+double TimeSeries::least() const
+{
+	return gpu_ms.empty() ? 0 : *std::min_element(gpu_ms.begin(), gpu_ms.end());
+}
+
+double TimeSeries::most() const
+{
+	return gpu_ms.empty() ? 0 : *std::max_element(gpu_ms.begin(), gpu_ms.end());
+}
+
+void FrameSeries::add(const FrameResult& result)
+{
+	frame.gpu_ms.push_back(result.gpu_ms);
+	for (const PassTime& pass : result.passes)
+		passes[pass.name].gpu_ms.push_back(pass.gpu_ms);
+	last = result;
+}
+
+ordered_json deviceJson(const Device& device)
+{
+	ordered_json gates = ordered_json::object();
+	for (const Gate& gate : device.gates.table())
+		gates[std::string(gate.name)] = gate.open;
+	return { { "name", device.name },
+			 { "driver", device.driver },
+			 { "api", device.api },
+			 { "subgroup_size", device.limits.subgroup_size },
+			 { "gates", gates } };
+}
+
+ordered_json sceneJson(const BuiltScene& scene)
+{
+	const SceneTraits& traits = scene.traits;
+	return {
+		{ "path", scene.path },
+		{ "instances", scene.instances.size() },
+		{ "clusters", scene.clusters.size() },
+		{ "base_triangles", traits.base_triangles },
+		{ "instanced_triangles", traits.instanced_triangles },
+		{ "vertices", scene.positions.size() },
+		{ "meshes", scene.meshes.size() },
+		{ "materials", scene.materials.size() },
+		{ "height_maps", scene.height_maps.size() },
+		{ "color_textures", scene.color_textures.size() },
+		{ "cameras", scene.cameras.size() },
+		{ "degenerate_triangles", traits.degenerate_triangles },
+		{ "seam_edges", traits.seam_edges },
+		{ "seam_corners", traits.seam_corners },
+		{ "zero_directions", traits.zero_directions },
+		{ "boundary_edges", traits.boundary_edges },
+		{ "nonmanifold_edges", traits.nonmanifold_edges },
+		{ "world_low", vectorJson(scene.world_low) },
+		{ "world_high", vectorJson(scene.world_high) },
+		{ "warnings", scene.warnings },
+	};
+}
+
+ordered_json statsJson(const RunFacts& facts)
+{
+	ordered_json json;
+	json["schema"] = 1;
+	json["device"] = deviceJson(facts.device);
+	json["scene"] = sceneJson(facts.scene);
+	json["options"] = optionsJson(facts.options);
+	json["camera"] = cameraJson(facts.camera, facts.scene);
+	json["frame"] = frameJson(facts);
+	json["passes"] = passesJson(facts);
+	json["lists"] = listsJson(facts.series.last);
+	json["memory"] = {
+		{ "lists", facts.memory.lists },   { "geometry", facts.memory.geometry }, { "textures", facts.memory.textures },
+		{ "images", facts.memory.images }, { "total", facts.memory.total() },
+	};
+	return json;
+}
+
+Status writeJson(const std::filesystem::path& path, const ordered_json& json)
+{
+	// Names from files may hold any bytes: what is not UTF-8 is replaced.
+	const std::string text = json.dump(1, '\t', false, ordered_json::error_handler_t::replace) + "\n";
+	if (path != "-")
+		return writeFile(path, std::string_view(text));
+	if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+		return badInput("standard output: cannot be written to");
+	return {};
+}
+
+}  // namespace tessera
