@@ -14,6 +14,7 @@ namespace
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNeverBackFacing = 2;
+constexpr float kFarthestReach = 1e30f;
 // Rounding of a normalised interpolated direction, and of the interval arithmetic with it.
 constexpr double kDirectionRounding = 1e-5;
 // Directions that spread to more than this (cosine) from their mean are bounded by everything.
@@ -131,8 +132,9 @@ void boundDisplacement(const BuiltScene& scene, const std::vector<HeightRanges>&
 	if (directions.has_zero)
 		reach.include(0.0f);
 	const bool moves = directions.low.x <= directions.high.x;
-	bounds.reach_low = moves ? reach.low : 0;
-	bounds.reach_high = moves ? reach.high : 0;
+	// Heights near the largest floats would make boxes of infinities less infinities.
+	bounds.reach_low = moves ? std::max(reach.low, -kFarthestReach) : 0;
+	bounds.reach_high = moves ? std::min(reach.high, kFarthestReach) : 0;
 	bounds.direction_low = moves ? vec3(directions.low) : vec3(0);
 	bounds.direction_high = moves ? vec3(directions.high) : vec3(0);
 }
