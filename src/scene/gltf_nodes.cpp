@@ -197,10 +197,6 @@ private:
 		camera.name = source.name;
 		camera.world = world;
 		camera.orthographic = source.type == "orthographic";
-		if (!camera.orthographic && source.type != "perspective")
-			return m_document.bad(place + ".type", "is neither perspective nor orthographic");
-		if (!m_document.json["cameras"][index].contains(source.type))
-			return m_document.bad(fmt::format("{}.{}", place, source.type), "is missing, but required");
 		if (camera.orthographic)
 		{
 			camera.height_world = 2 * std::fabs(source.orthographic.ymag);

@@ -291,6 +291,18 @@ private:
 
 }  // namespace
 
+static Status checkCamera(const GltfDocument& document, size_t index)
+{
+	const Json& camera = document.json["cameras"][index];
+	const std::string type = camera["type"].get<std::string>();
+	const std::string place = fmt::format("cameras[{}]", index);
+	if (type != "perspective" && type != "orthographic")
+		return document.bad(place + ".type", "is neither perspective nor orthographic");
+	if (!camera.contains(type))
+		return document.bad(fmt::format("{}.{}", place, type), "is missing, but required");
+	return {};
+}
+
 Status checkGltfSchema(const GltfDocument& document)
 {
 	if (!document.json.is_object())
@@ -309,6 +321,8 @@ Status checkGltfSchema(const GltfDocument& document)
 		if (stride % 4 != 0)
 			return document.bad(fmt::format("bufferViews[{}].byteStride", i), "is {}, but a multiple of 4 from 4 to 252 is right", stride);
 	}
+	for (size_t i = 0; i < entryCount(document.json, "cameras"); ++i)
+		TRY(checkCamera(document, i));
 	return {};
 }
 

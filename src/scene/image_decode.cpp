@@ -15,6 +15,8 @@
 #define STBI_NO_PIC
 #define STBI_NO_PNM
 #define STBI_NO_GIF
+#define STBI_NO_HDR     // stb's Radiance decoder never ends on some truncated files
+#define STBI_NO_LINEAR  // belongs to it
 #define STBI_MAX_DIMENSIONS 16384
 #include <stb_image.h>
 
@@ -40,6 +42,7 @@ static constexpr Signature kUnsupported[] = {
 	{ 0, { "GIF8", 4 }, "GIF" },
 	{ 0, { "8BPS", 4 }, "PSD" },
 	{ 4, { "ftypavif", 8 }, "AVIF" },
+	{ 0, { "#?", 2 }, "Radiance HDR" },
 	{ 0, { "II*\0", 4 }, "TIFF" },
 	{ 0, { "MM\0*", 4 }, "TIFF" },
 };
@@ -78,13 +81,7 @@ static Result<Image> decodeStb(std::span<const std::byte> bytes, const std::stri
 
 	std::unique_ptr<void, StbFree> texels;
 	size_t texel_size = 1;
-	if (stbi_is_hdr_from_memory(data, size))
-	{
-		image.format = TexelFormat::F32;
-		texel_size = 4;
-		texels.reset(stbi_loadf_from_memory(data, size, &width, &height, &channels, 0));
-	}
-	else if (stbi_is_16_bit_from_memory(data, size))
+	if (stbi_is_16_bit_from_memory(data, size))
 	{
 		image.format = TexelFormat::U16;
 		texel_size = 2;
@@ -92,6 +89,8 @@ static Result<Image> decodeStb(std::span<const std::byte> bytes, const std::stri
 	}
 	else
 		texels.reset(stbi_load_from_memory(data, size, &width, &height, &channels, 0));
+	if (!texels && std::string_view(stbi_failure_reason()) == "too large")
+		return badInput("{}: is larger than {} x {}, the most that is read", name, kMaxImageSide, kMaxImageSide);
 	if (!texels)
 		return badInput("{}: cannot be decoded: {}", name, stbi_failure_reason());
 
@@ -123,9 +122,9 @@ Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& n
 {
 	for (const Signature& signature : kUnsupported)
 		if (startsWith(bytes, signature.offset, signature.bytes))
-			return badInput("{}: {} is not supported; PNG, JPEG, EXR or HDR is right", name, signature.format);
+			return badInput("{}: {} is not supported; PNG, JPEG or EXR is right", name, signature.format);
 	if (!isExr(bytes) && !isReadable(bytes, name))
-		return badInput("{}: is no image in a known format; PNG, JPEG, EXR or HDR is right", name);
+		return badInput("{}: is no image in a known format; PNG, JPEG or EXR is right", name);
 	TRY_ASSIGN(Image image, isExr(bytes) ? decodeExr(bytes, name) : decodeStb(bytes, name));
 	if (image.format == TexelFormat::F32)
 		if (const size_t replaced = zeroNonFinite(image); replaced > 0)
@@ -139,4 +138,4 @@ Result<Image> readImage(const std::filesystem::path& path, std::vector<std::stri
 	return decodeImage(bytes, path.string(), warnings);
 }
 
-} // namespace tessera
+}  // namespace tessera
