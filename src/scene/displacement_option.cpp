@@ -19,7 +19,7 @@ struct DisplacementOption
 	std::string image;
 	float factor = 1;
 	float offset = 0;
-	std::string material; // empty: all
+	std::string material;  // empty: all
 };
 
 // The longest head that ends at a colon or at the end and is a file; without one, all up to the first colon.
@@ -115,4 +115,4 @@ Status attachDisplacement(ImportedScene& scene, std::string_view option)
 	return {};
 }
 
-} // namespace tessera
+}  // namespace tessera

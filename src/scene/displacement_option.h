@@ -16,4 +16,4 @@ namespace tessera
 // Errors: Usage (malformed numbers), BadInput (missing or broken image, unknown material). The scene is unchanged then.
 Status attachDisplacement(ImportedScene& scene, std::string_view option);
 
-} // namespace tessera
+}  // namespace tessera

@@ -9,7 +9,7 @@
 namespace tessera
 {
 
-static constexpr size_t kMaxCountWithoutView = size_t(1) << 24;
+static constexpr size_t kMaxCountWithoutView = size_t(1) << 22;
 
 size_t componentSize(int component_type)
 {

@@ -51,7 +51,7 @@ struct GltfAccessor
 
 // Checks every accessor of the model against its views. The result is as long as model.accessors and points into the document.
 // Errors: BadInput naming the accessor (unknown type, elements beyond the view, stride below the element size, bad sparse
-// data, more than 2^24 elements without a buffer view).
+// data, more than 2^22 elements without a buffer view).
 Result<std::vector<GltfAccessor>> checkAccessors(const GltfDocument& document, const tinygltf::Model& model);
 
 // Elements [first, first + count) as floats, accessor.components each; normalized integers become [0, 1] or [-1, 1].

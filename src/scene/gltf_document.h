@@ -43,7 +43,7 @@ struct GltfDocument
 	template <typename... Args>
 	[[nodiscard]] tl::unexpected<Error> bad(std::string_view place, fmt::format_string<Args...> format, Args&&... args) const
 	{
-		return badInput("{}: {}: {}", file, place, fmt::format(format, std::forward<Args>(args)...));
+		return badInput("{}", oneLine(fmt::format("{}: {}: {}", file, place, fmt::format(format, std::forward<Args>(args)...))));
 	}
 };
 

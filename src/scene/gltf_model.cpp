@@ -5,24 +5,38 @@
 #include "scene/gltf_model.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace tessera
 {
 
-static std::string oneLine(std::string text)
+// tinygltf needs a view behind every index accessor and gives no place when one is missing.
+static Status checkIndexViews(const GltfDocument& document)
 {
-	while (!text.empty() && text.back() == '\n')
-		text.pop_back();
-	std::replace(text.begin(), text.end(), '\n', ';');
-	return text;
+	const size_t mesh_count = entryCount(document.json, "meshes");
+	for (size_t i = 0; i < mesh_count; ++i)
+	{
+		const Json& primitives = document.json["meshes"][i]["primitives"];
+		for (size_t j = 0; j < primitives.size(); ++j)
+		{
+			const auto indices = primitives[j].find("indices");
+			if (indices != primitives[j].end() && !document.json["accessors"][indices->get<size_t>()].contains("bufferView"))
+				return document.bad(fmt::format("meshes[{}].primitives[{}].indices", i, j), "accessors[{}] has no bufferView, but indices need one",
+									indices->get<size_t>());
+		}
+	}
+	return {};
 }
 
 Result<tinygltf::Model> parseGltfModel(const GltfDocument& document)
 {
-	Json description = document.json;
-	for (const char* name : { "buffers", "images", "animations", "skins", "extensions", "extras" })
-		description.erase(name);
+	TRY(checkIndexViews(document));
+	constexpr std::array<std::string_view, 6> kHidden = { "buffers", "images", "animations", "skins", "extensions", "extras" };
+	Json description = Json::object();
+	for (auto it = document.json.begin(); it != document.json.end(); ++it)
+		if (std::find(kHidden.begin(), kHidden.end(), it.key()) == kHidden.end())
+			description[it.key()] = it.value();
 	const std::string text = description.dump();
 	if (text.size() > std::numeric_limits<unsigned>::max())
 		return document.bad("JSON", "has {} bytes, more than can be read", text.size());

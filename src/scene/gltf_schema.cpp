@@ -1,5 +1,7 @@
 #include "scene/gltf_schema.h"
 
+#include "scene/gltf_accessor.h"
+
 #include <array>
 #include <limits>
 
@@ -34,6 +36,7 @@ struct Field
 	std::span<const Field> fields = {};
 };
 
+static constexpr uint64_t kMaxTexcoord = 31;
 static constexpr uint64_t kMaxInt = std::numeric_limits<int>::max();
 
 static constexpr Field plain(const char* name, Kind kind)
@@ -63,9 +66,9 @@ static constexpr Field required(Field field)
 }
 
 static constexpr std::array kTextureTransform = { numbers("offset", 2), plain("rotation", Kind::Number), numbers("scale", 2),
-												  count("texCoord", 0, kMaxInt) };
+												  count("texCoord", 0, kMaxTexcoord) };
 static constexpr std::array kTextureInfoExtensions = { object("KHR_texture_transform", kTextureTransform) };
-static constexpr std::array kTextureInfo = { required(index("index", "textures")), count("texCoord", 0, kMaxInt),
+static constexpr std::array kTextureInfo = { required(index("index", "textures")), count("texCoord", 0, kMaxTexcoord),
 											 object("extensions", kTextureInfoExtensions) };
 static constexpr std::array kDisplacement = { object("displacementGeometryTexture", kTextureInfo), plain("displacementGeometryFactor", Kind::Number),
 											  plain("displacementGeometryOffset", Kind::Number) };
@@ -321,6 +324,9 @@ Status checkGltfSchema(const GltfDocument& document)
 		if (stride % 4 != 0)
 			return document.bad(fmt::format("bufferViews[{}].byteStride", i), "is {}, but a multiple of 4 from 4 to 252 is right", stride);
 	}
+	for (size_t i = 0; i < entryCount(document.json, "accessors"); ++i)
+		if (const std::string type = document.json["accessors"][i]["type"].get<std::string>(); componentCount(type) == 0)
+			return document.bad(fmt::format("accessors[{}].type", i), "is \"{}\", but SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4 is right", type);
 	for (size_t i = 0; i < entryCount(document.json, "cameras"); ++i)
 		TRY(checkCamera(document, i));
 	return {};

@@ -1,6 +1,7 @@
 #include "scene/gltf_uri.h"
 
 #include "base/file.h"
+#include "scene/gltf_warnings.h"
 
 #include <algorithm>
 #include <array>
@@ -27,11 +28,7 @@ static int hexDigit(char c)
 std::string shownUri(std::string_view uri)
 {
 	constexpr size_t kShown = 80;
-	std::string shown(uri.substr(0, kShown));
-	for (char& c : shown)
-		if (static_cast<unsigned char>(c) < 32 || c == 127)
-			c = '?';
-	return "\"" + shown + (uri.size() > kShown ? "..." : "") + "\"";
+	return fmt::format("\"{}{}\"", oneLine(std::string(uri.substr(0, kShown))), uri.size() > kShown ? "..." : "");
 }
 
 Result<std::string> percentDecoded(std::string_view text)

@@ -5,6 +5,14 @@
 namespace tessera
 {
 
+std::string oneLine(std::string text)
+{
+	for (char& c : text)
+		if (static_cast<unsigned char>(c) < 32 || c == 127)
+			c = '?';
+	return text;
+}
+
 void GltfWarnings::add(const std::string& place, const std::string& text)
 {
 	addCounted(place, text, 1);
@@ -30,7 +38,7 @@ std::vector<std::string> GltfWarnings::lines(const std::string& file) const
 	for (const Entry& entry : m_entries)
 	{
 		const std::string more = entry.count == 1 ? "" : fmt::format(" (and {} more place{})", entry.count - 1, entry.count == 2 ? "" : "s");
-		result.push_back(fmt::format("{}: {}{}: {}", file, entry.place, more, entry.text));
+		result.push_back(oneLine(fmt::format("{}: {}{}: {}", file, entry.place, more, entry.text)));
 	}
 	return result;
 }

@@ -7,6 +7,9 @@
 namespace tessera
 {
 
+// `text` with control characters replaced: names in a file must not break a message into lines.
+std::string oneLine(std::string text);
+
 class GltfWarnings
 {
 public:

@@ -21,4 +21,4 @@ Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& n
 // The same for a file.
 Result<Image> readImage(const std::filesystem::path& path, std::vector<std::string>& warnings);
 
-} // namespace tessera
+}  // namespace tessera

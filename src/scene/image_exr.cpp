@@ -35,7 +35,7 @@ struct ExrFile
 	}
 };
 
-} // namespace
+}  // namespace
 
 static std::string takeMessage(const char* message)
 {
@@ -175,4 +175,4 @@ Result<Image> decodeExr(std::span<const std::byte> bytes, const std::string& nam
 	return image;
 }
 
-} // namespace tessera
+}  // namespace tessera

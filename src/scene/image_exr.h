@@ -11,4 +11,4 @@ bool isExr(std::span<const std::byte> bytes);
 // Errors: BadInput "name: ..." (multi-part and deep files, integer or subsampled channels, sides above kMaxImageSide).
 Result<Image> decodeExr(std::span<const std::byte> bytes, const std::string& name);
 
-} // namespace tessera
+}  // namespace tessera

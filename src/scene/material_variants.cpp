@@ -103,4 +103,4 @@ void dropUnusedTextures(ImportedScene& scene)
 		texture.image = image_numbers[texture.image];
 }
 
-} // namespace tessera
+}  // namespace tessera

@@ -21,4 +21,4 @@ std::vector<LostTexture> dropTexturesWithoutTexcoords(ImportedScene& scene);
 // renumbers the rest in order.
 void dropUnusedTextures(ImportedScene& scene);
 
-} // namespace tessera
+}  // namespace tessera

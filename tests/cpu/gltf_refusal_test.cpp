@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
 		BrokenField{ "accessorCountFraction", "/accessors/0/count", 4.5, "accessors[0].count: is of type number, but an integer is right" },
 		BrokenField{ "accessorOffset", "/accessors/0/byteOffset", 4, "accessors[0]: 4 elements of 12 bytes, 12 bytes apart, from byteOffset 4" },
 		BrokenField{ "accessorOffsetHuge", "/accessors/0/byteOffset", kHuge, "accessors[0].byteOffset: is 4611686018427387904" },
-		BrokenField{ "accessorType", "/accessors/0/type", "VEC5", "VEC5" },
+		BrokenField{ "accessorType", "/accessors/0/type", "VEC5", "accessors[0].type: is \"VEC5\", but SCALAR" },
 		BrokenField{ "accessorComponent", "/accessors/0/componentType", 5124, "accessors[0].componentType: is 5124" },
 		BrokenField{ "accessorWithoutView",
 					 "/accessors/0",
@@ -180,6 +180,31 @@ TEST(gltfRefusals, anIndexBeyondTheVerticesIsNamed)
 	GltfFile file = squareFile();
 	file.json["meshes"][0]["primitives"][0]["indices"] = file.addIndices({ 0, 1, 2, 0, 4, 3 });
 	expectRefused(file.import(), "meshes[0].primitives[0].indices: index 4 is 4, but POSITION has 4 vertices: values from 0 to 3 are right");
+}
+
+TEST(gltfRefusals, indicesWithoutAViewAreRefusedWithTheirPlace)
+{
+	GltfFile file = squareFile();
+	file.json["accessors"][3].erase("bufferView");
+	expectRefused(file.import(), "meshes[0].primitives[0].indices: accessors[3] has no bufferView");
+}
+
+TEST(gltfRefusals, namesWithLineBreaksStayOnOneLine)
+{
+	GltfFile file = squareFile();
+	file.json["extensionsRequired"] = { "BAD\nname" };
+	expectRefused(file.import(), "BAD?name is required");
+	file.json.erase("extensionsRequired");
+	file.json["extensionsUsed"] = { "BAD\nname" };
+	IMPORTED(scene, file.import());
+	EXPECT_TRUE(hasWarning(scene, "BAD?name"));
+}
+
+TEST(gltfRefusals, aTexcoordSetAboveWhatIsReadIsRefused)
+{
+	GltfFile file = fullFile();
+	file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 0x7fffffff;
+	expectRefused(file.importGlb(), "baseColorTexture.texCoord: is 2147483647, but an integer from 0 to 31 is right");
 }
 
 TEST(gltfRefusals, meshoptBuffersWithoutFallbackDataAreRefusedByName)

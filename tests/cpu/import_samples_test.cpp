@@ -77,7 +77,7 @@ static void expectPrefixesSurvive(const std::string& name, const std::string& cu
 	const TemporaryFolder folder;
 	fs::copy(dataFile(""), folder.path, fs::copy_options::recursive);
 	const std::vector<std::byte> whole = readBytes(dataFile(cut));
-	for (size_t length = 0; length < whole.size(); length += length < 64 || whole.size() - length < 64 ? 1 : 7)
+	for (size_t length = 0; length < whole.size(); length += length < 64 || whole.size() - length < 64 ? 1 : 13)
 	{
 		writeBytes(folder.path / cut, { whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length) });
 		const Result<ImportedScene> result = importGltf(folder.path / name);
@@ -104,7 +104,7 @@ TEST(importSamples, everyTruncatedPrefixOfABufferIsRefused)
 	expectPrefixesSurvive("draco_grid.gltf", "draco_grid.bin");
 }
 
-// Every byte of a .glb and of a Draco stream, one at a time, gets two wrong values: refused or loaded with all promises kept.
+// Every byte of a .glb and of a Draco stream, one at a time, gets a wrong value: refused or loaded with all promises kept.
 TEST(importSamples, noFlippedByteBreaksAPromise)
 {
 	for (const auto& [name, flipped] : { std::pair("displaced_quad.glb", "displaced_quad.glb"), std::pair("draco_grid.gltf", "draco_grid.bin") })
@@ -113,17 +113,16 @@ TEST(importSamples, noFlippedByteBreaksAPromise)
 		fs::copy(dataFile(""), folder.path, fs::copy_options::recursive);
 		const std::vector<std::byte> whole = readBytes(dataFile(flipped));
 		for (size_t at = 0; at < whole.size(); ++at)
-			for (const int flip : { 0x01, 0xff })
-			{
-				std::vector<std::byte> bytes = whole;
-				bytes[at] ^= std::byte(flip);
-				writeBytes(folder.path / flipped, bytes);
-				const Result<ImportedScene> result = importGltf(folder.path / name);
-				if (result)
-					expectPromisesKept(*result);
-				else
-					EXPECT_EQ(result.error().message.find('\n'), std::string::npos) << result.error().message;
-			}
+		{
+			std::vector<std::byte> bytes = whole;
+			bytes[at] ^= at % 2 == 0 ? std::byte(0x01) : std::byte(0xff);
+			writeBytes(folder.path / flipped, bytes);
+			const Result<ImportedScene> result = importGltf(folder.path / name);
+			if (result)
+				expectPromisesKept(*result);
+			else
+				EXPECT_EQ(result.error().message.find('\n'), std::string::npos) << result.error().message;
+		}
 	}
 }
 
