@@ -3,7 +3,7 @@
 //   in   cluster_groups     ClusterGroup[]      from instance_classify
 //   in   cluster_bounds     DisplacedBounds[]   only with culling
 //   out  visible_clusters   ClusterRef[]        to cluster_classify
-//   out  full_clusters      uint[]              only when nothing can be tessellated: every visible cluster, to draw_clusters
+//   out  full_clusters      FullCluster[]           only when nothing can be tessellated: every visible cluster, to draw_clusters
 //
 // One workgroup takes one group at a time, one lane a cluster. Conservative: a culled cluster cannot touch a pixel (C3).
 // Host: src/pipeline/culling/cluster_cull.cpp
@@ -79,11 +79,7 @@ void main()
 		{
 			args.visible_clusters.at[first_visible + place] = ClusterRef(group.instance, cluster);
 			if (args.emit_full != 0u)
-			{
-				countFullCluster(args.heads, args.counts, args.clusters.at[cluster]);
-				if (first_full + place < args.heads.at[LIST_FULL_CLUSTERS].capacity)
-					args.full_clusters.at[first_full + place] = first_visible + place;
-			}
+				listFullCluster(args.heads, args.counts, args.full_clusters, first_full + place, first_visible + place, args.clusters.at[cluster]);
 		}
 		barrier();
 	}

@@ -17,7 +17,7 @@ struct ClusterCullArgs
 	GPU_PTR(FrameCounts) counts;
 	GPU_PTR(ClusterGroup) cluster_groups;
 	GPU_PTR(ClusterRef) visible_clusters;
-	GPU_PTR(uint) full_clusters;  // 0 when cluster_classify decides which clusters are full
+	GPU_PTR(FullCluster) full_clusters;  // 0 when cluster_classify decides which clusters are full
 	uint cull_frustum;
 	uint cull_backface;
 	uint emit_full;  // 1: no factor can exceed 1, every visible cluster is full

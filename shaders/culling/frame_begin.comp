@@ -28,7 +28,6 @@ void main()
 		args.counts.at[0].micro_low = 0u;
 		args.counts.at[0].micro_high = 0u;
 		args.counts.at[0].full_cluster_triangles = 0u;
-		args.counts.at[0].expanded_vertices = 0u;
 		args.counts.at[0].expanded_triangles = 0u;
 	}
 }

@@ -16,7 +16,7 @@ struct InstanceClassifyArgs
 	GPU_PTR(ListHead) heads;
 	GPU_PTR(ClusterGroup) cluster_groups;
 	uint instance_count;
-	uint round;       // a frame in several rounds takes every round_count-th group in each
+	uint round;  // a frame in several rounds takes every round_count-th group in each
 	uint round_count;
 };
 SHARED_LAYOUT(InstanceClassifyArgs, 64, round_count, 56)

@@ -1,47 +1,25 @@
-// A batch of part triangles in one workgroup of at least BATCH_MAX_PARTS threads: who owns which vertex and triangle, and
-// what the micro-vertices are. Used by every stage that rasterises or expands parts.
+// A batch of part triangles in one workgroup of at least BATCH_MAX_PARTS threads: which part owns which micro-vertex and
+// micro-triangle. Used by every stage that evaluates, draws or expands parts.
 #ifndef TESSERA_LIB_BATCH
 #define TESSERA_LIB_BATCH
 #include "shared/lists.h"
 #include "shared/raster_inputs.h"
 
-struct BatchPart
-{
-	DomainTriangle record;
-	BaseTriangle base;
-	Placement placement;
-	PatternRange pattern;
-	uint turned;  // 1: triangles are emitted with two corners exchanged
-};
-
-shared BatchPart parts[BATCH_MAX_PARTS];
+// Pattern of each part, and 1 when its triangles are emitted with two corners exchanged.
+shared PatternRange part_patterns[BATCH_MAX_PARTS];
+shared uint part_turned[BATCH_MAX_PARTS];
 // Sums of the parts before each: vertices in the low, triangles in the high half.
 shared uint part_sums[BATCH_MAX_PARTS + 1u];
 
-BatchPart loadPart(RasterInputs inputs, uint index)
+PatternRange patternOf(RasterInputs inputs, DomainPiece piece)
 {
-	BatchPart part;
-	part.record = inputs.part_triangles.at[index];
-	DomainPiece piece = unpackTriangle(part.record);
-	ClusterRef ref = inputs.visible_clusters.at[piece.visible_cluster];
-	InstanceRecord instance = inputs.instances.at[ref.instance];
-	part.base = baseTriangle(inputs.surface.at[0], inputs.clusters.at[ref.cluster], piece.triangle);
-	part.placement = placementOf(instance, inputs.view.at[0]);
-	part.pattern = inputs.table.patterns.at[patternIndex(piece.a, piece.b, piece.c)];
-	part.turned = HAS_MIRRORED_INSTANCES ? piece.mirror ^ instance.mirrored : piece.mirror;
-	return part;
+	return inputs.table.patterns.at[patternIndex(piece.a, piece.b, piece.c)];
 }
 
-// Loads the parts of a batch and sums their sizes. Ends with a barrier.
-void loadBatch(RasterInputs inputs, uint batch)
+// Inclusive scan of every part's size. Ends with a barrier.
+void scanParts(uint size)
 {
 	uint lane = gl_LocalInvocationIndex;
-	uint size = 0u;
-	if (lane < batchCount(batch))
-	{
-		parts[lane] = loadPart(inputs, batchFirst(batch) + lane);
-		size = patternVertices(parts[lane].pattern) | (patternTriangles(parts[lane].pattern) << 16);
-	}
 	if (lane == 0u)
 		part_sums[0] = 0u;
 	if (lane < BATCH_MAX_PARTS)
@@ -57,6 +35,25 @@ void loadBatch(RasterInputs inputs, uint batch)
 	}
 }
 
+// Reads the layout of a batch. Ends with a barrier.
+void loadBatch(RasterInputs inputs, uint batch)
+{
+	uint lane = gl_LocalInvocationIndex;
+	uint size = 0u;
+	if (lane < batchCount(batch))
+	{
+		DomainPiece piece = unpackTriangle(inputs.part_triangles.at[batchFirst(batch) + lane]);
+		PatternRange pattern = patternOf(inputs, piece);
+		uint turned = piece.mirror;
+		if (HAS_MIRRORED_INSTANCES)
+			turned ^= inputs.instances.at[inputs.visible_clusters.at[piece.visible_cluster].instance].mirrored;
+		part_patterns[lane] = pattern;
+		part_turned[lane] = turned;
+		size = patternVertices(pattern) | (patternTriangles(pattern) << 16);
+	}
+	scanParts(size);
+}
+
 uint batchVertices() { return part_sums[BATCH_MAX_PARTS] & 0xffffu; }
 uint batchTriangles() { return part_sums[BATCH_MAX_PARTS] >> 16; }
 
@@ -70,32 +67,20 @@ uint owningPart(uint index, uint shift)
 	return low;
 }
 
-// Micro-vertex `index` of the batch, clip coordinates.
-vec4 batchVertex(RasterInputs inputs, uint index)
-{
-	uint owner = owningPart(index, 0u);
-	DomainPiece piece = unpackTriangle(parts[owner].record);
-	uint edge_flags = triangleEdgeFlags(parts[owner].base.flags);
-	DomainPoint point = patternPoint(piece, index - (part_sums[owner] & 0xffffu), parts[owner].pattern, inputs.table, edge_flags);
-	View view = inputs.view.at[0];
-	SurfacePoint surface_point = surfacePoint(inputs.surface.at[0], parts[owner].base, point, parts[owner].placement, view);
-	return clipPosition(placed(parts[owner].placement, surface_point.displaced), view);
-}
-
 struct MicroTriangle
 {
 	uvec3 vertices;  // within the batch
 	uint payload;
 };
 
-// Micro-triangle `index` of the batch whose first part is `first_part`.
-MicroTriangle batchTriangle(RasterInputs inputs, uint index, uint first_part)
+// Micro-triangle `index` of a batch.
+MicroTriangle batchTriangle(RasterInputs inputs, uint index, uint batch)
 {
 	uint owner = owningPart(index, 16u);
 	uint triangle = index - (part_sums[owner] >> 16);
 	MicroTriangle result;
-	result.vertices = patternTriangle(triangle, parts[owner].pattern, inputs.table, parts[owner].turned) + (part_sums[owner] & 0xffffu);
-	result.payload = packPayload(KIND_PART_TRIANGLE, first_part + owner, triangle);
+	result.vertices = patternTriangle(triangle, part_patterns[owner], inputs.table, part_turned[owner]) + (part_sums[owner] & 0xffffu);
+	result.payload = packPayload(KIND_PART_TRIANGLE, batchFirst(batch) + owner, triangle);
 	return result;
 }
 

@@ -14,6 +14,7 @@ layout(constant_id = 8) const bool HAS_MIXED_SIDES = true;
 layout(constant_id = 9) const bool HAS_MIRRORED_INSTANCES = true;
 layout(constant_id = 10) const bool HAS_SINGLE_SIDED = true;
 layout(constant_id = 11) const bool IS_SHADED_VIEW = true;
-layout(constant_id = 12) const bool COUNTS_EXPANDED = true;
+layout(constant_id = 12) const bool KEEPS_VERTICES = true;
+layout(constant_id = 13) const bool EXPANDS_TRIANGLES = true;
 
 #endif

@@ -1,18 +1,20 @@
-// Counting full clusters, wherever they are decided.
+// Listing full clusters, wherever they are decided.
 #ifndef TESSERA_LIB_FULL_CLUSTERS
 #define TESSERA_LIB_FULL_CLUSTERS
 #include "lib/lists.glsl"
 #include "shared/geometry.h"
 
-// The triangles of a full cluster count as micro-triangles; the indexed path also needs room to expand them.
-void countFullCluster(ListHeadRef heads, FrameCountsRef counts, ClusterRecord cluster)
+// Counts a full cluster, takes its ranges and writes it to entry `slot` of full_clusters if there is room.
+void listFullCluster(ListHeadRef heads, FrameCountsRef counts, FullClusterRef full_clusters, uint slot, uint visible_cluster, ClusterRecord cluster)
 {
+	FullCluster full = FullCluster(visible_cluster, 0u);
 	atomicAdd(counts.at[0].full_cluster_triangles, clusterTriangles(cluster));
-	if (COUNTS_EXPANDED)
-	{
-		reserveEntries(heads, LIST_EXPANDED_VERTICES, clusterVertices(cluster));
+	if (KEEPS_VERTICES)
+		full.first_vertex = reserveEntries(heads, LIST_MICRO_VERTICES, clusterVertices(cluster));
+	if (EXPANDS_TRIANGLES)
 		reserveEntries(heads, LIST_EXPANDED_TRIANGLES, clusterTriangles(cluster));
-	}
+	if (slot < heads.at[LIST_FULL_CLUSTERS].capacity)
+		full_clusters.at[slot] = full;
 }
 
 #endif

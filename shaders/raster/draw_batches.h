@@ -10,9 +10,10 @@ struct DrawBatchesArgs
 {
 	RasterInputs inputs;
 	GPU_PTR(ListHead) heads;
-	GPU_PTR(uint) batches;
+	GPU_PTR(Batch) batches;
+	GPU_PTR(vec4) vertices;
 };
-SHARED_LAYOUT(DrawBatchesArgs, 96, batches, 88)
+SHARED_LAYOUT(DrawBatchesArgs, 104, vertices, 96)
 
 SHARED_END
 

@@ -10,9 +10,10 @@ struct DrawClustersArgs
 {
 	RasterInputs inputs;
 	GPU_PTR(ListHead) heads;
-	GPU_PTR(uint) full_clusters;
+	GPU_PTR(FullCluster) full_clusters;
+	GPU_PTR(vec4) vertices;
 };
-SHARED_LAYOUT(DrawClustersArgs, 96, full_clusters, 88)
+SHARED_LAYOUT(DrawClustersArgs, 104, vertices, 96)
 
 SHARED_END
 

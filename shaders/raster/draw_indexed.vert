@@ -1,7 +1,7 @@
-// draw_indexed: pass on the clip coordinates that expand_triangles wrote.
+// draw_indexed: pass on the clip coordinates that evaluate_vertices wrote.
 //
-//   in   expanded_vertices   vec4[]
-//   out  visibility          depth and payload attachments, by draw_indexed.frag
+//   in   micro_vertices   vec4[]
+//   out  visibility       depth and payload attachments, by draw_indexed.frag
 //
 // Host: src/pipeline/raster/draw_indexed.cpp   Test: tests/gpu/raster_test.cpp
 #version 460

@@ -18,9 +18,9 @@ SHARED_LAYOUT(MaterialRecord, 40, color_texture, 36)
 // What only shading reads, per vertex and per material. Absent arrays (address 0) are not needed by the scene.
 struct ShadingData
 {
-	GPU_PTR(vec3) normals;    // authored shading normals, mesh units
+	GPU_PTR(vec3) normals;  // authored shading normals, mesh units
 	GPU_PTR(vec2) color_uvs;
-	GPU_PTR(uint) colors;     // RGBA8, linear
+	GPU_PTR(uint) colors;  // RGBA8, linear
 	GPU_PTR(MaterialRecord) materials;
 };
 SHARED_LAYOUT(ShadingData, 32, materials, 24)

@@ -10,14 +10,14 @@ SHARED_BEGIN
 // Bounds of a cluster or of a whole mesh, mesh units.
 struct DisplacedBounds
 {
-	vec3 low;             // box of the undisplaced vertices
+	vec3 low;  // box of the undisplaced vertices
 	vec3 high;
-	vec3 direction_low;   // interval, per axis, of every normalised interpolated displacement direction
+	vec3 direction_low;  // interval, per axis, of every normalised interpolated displacement direction
 	vec3 direction_high;
-	float reach_low;      // interval of (height * factor + offset) over all mips that may be read; both 0: not displaced
+	float reach_low;  // interval of (height * factor + offset) over all mips that may be read; both 0: not displaced
 	float reach_high;
-	vec3 cone_axis;       // normal cone of the base triangles, unit
-	float cone_cutoff;    // back-facing when dot(axis, direction from eye) >= cutoff * length; above 1: never (see scene/)
+	vec3 cone_axis;     // normal cone of the base triangles, unit
+	float cone_cutoff;  // back-facing when dot(axis, direction from eye) >= cutoff * length; above 1: never (see scene/)
 };
 SHARED_LAYOUT(DisplacedBounds, 72, cone_cutoff, 68)
 
@@ -29,8 +29,14 @@ struct Box
 };
 
 // Interval product [a, b] * [c, d], low and high ends.
-SHARED_FN float productLow(float a, float b, float c, float d) { return min(min(a * c, a * d), min(b * c, b * d)); }
-SHARED_FN float productHigh(float a, float b, float c, float d) { return max(max(a * c, a * d), max(b * c, b * d)); }
+SHARED_FN float productLow(float a, float b, float c, float d)
+{
+	return min(min(a * c, a * d), min(b * c, b * d));
+}
+SHARED_FN float productHigh(float a, float b, float c, float d)
+{
+	return max(max(a * c, a * d), max(b * c, b * d));
+}
 
 // The box of everything the displaced surface can reach, a hair wider than exact to cover rounding.
 SHARED_FN Box displacedBox(DisplacedBounds bounds, float displacement_scale)
@@ -47,8 +53,12 @@ SHARED_FN Box displacedBox(DisplacedBounds bounds, float displacement_scale)
 	float size = max(max(box.high.x - box.low.x, box.high.y - box.low.y), box.high.z - box.low.z);
 	float far_corner = max(max(max(box.high.x, -box.low.x), max(box.high.y, -box.low.y)), max(box.high.z, -box.low.z));
 	float margin = size * 1e-5f + far_corner * 1e-6f;
-	box.low.x -= margin; box.low.y -= margin; box.low.z -= margin;
-	box.high.x += margin; box.high.y += margin; box.high.z += margin;
+	box.low.x -= margin;
+	box.low.y -= margin;
+	box.low.z -= margin;
+	box.high.x += margin;
+	box.high.y += margin;
+	box.high.z += margin;
 	return box;
 }
 
@@ -57,7 +67,7 @@ SHARED_FN Box displacedBox(DisplacedBounds bounds, float displacement_scale)
 SHARED_FN float planeReach(float x, float y, float depth, float offset, vec3 centre, vec3 axis0, vec3 axis1, vec3 axis2, View view)
 {
 	vec3 normal = vec3(x * view.right.x + y * view.up.x + depth * view.forward.x, x * view.right.y + y * view.up.y + depth * view.forward.y,
-	                   x * view.right.z + y * view.up.z + depth * view.forward.z);
+					   x * view.right.z + y * view.up.z + depth * view.forward.z);
 	float middle = normal.x * centre.x + normal.y * centre.y + normal.z * centre.z + offset;
 	float reach0 = normal.x * axis0.x + normal.y * axis0.y + normal.z * axis0.z;
 	float reach1 = normal.x * axis1.x + normal.y * axis1.y + normal.z * axis1.z;
@@ -77,10 +87,10 @@ SHARED_FN bool boxMayBeVisible(Box box, Placement placement, View view)
 	vec3 axis1 = vec3(placement.row0.y * half_size.y, placement.row1.y * half_size.y, placement.row2.y * half_size.y);
 	vec3 axis2 = vec3(placement.row0.z * half_size.z, placement.row1.z * half_size.z, placement.row2.z * half_size.z);
 	return planeReach(view.focal_x, 0.0f, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
-	       planeReach(-view.focal_x, 0.0f, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
-	       planeReach(0.0f, view.focal_y, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
-	       planeReach(0.0f, -view.focal_y, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
-	       planeReach(0.0f, 0.0f, 1.0f, -view.near, centre, axis0, axis1, axis2, view) >= 0.0f;
+		   planeReach(-view.focal_x, 0.0f, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
+		   planeReach(0.0f, view.focal_y, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
+		   planeReach(0.0f, -view.focal_y, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
+		   planeReach(0.0f, 0.0f, 1.0f, -view.near, centre, axis0, axis1, axis2, view) >= 0.0f;
 }
 
 SHARED_END

@@ -38,7 +38,10 @@ struct DomainPiece
 	uint mirror;  // 1: corner order is mirrored, what the pattern emits has to be turned over
 };
 
-SHARED_FN uint domainW(DomainPoint p) { return DOMAIN_SIZE - p.u - p.v; }
+SHARED_FN uint domainW(DomainPoint p)
+{
+	return DOMAIN_SIZE - p.u - p.v;
+}
 
 SHARED_FN DomainPoint domainCorner(uint corner)
 {

@@ -12,7 +12,7 @@ struct ClusterRecord
 {
 	uint first_vertex;
 	uint first_triangle;
-	uint counts;    // vertices | triangles << 8
+	uint counts;  // vertices | triangles << 8
 	uint material;
 };
 SHARED_LAYOUT(ClusterRecord, 16, material, 12)
@@ -32,16 +32,31 @@ struct ClusterRef
 };
 SHARED_LAYOUT(ClusterRef, 8, cluster, 4)
 
-SHARED_FN uint clusterVertices(ClusterRecord cluster) { return cluster.counts & 0xffu; }
-SHARED_FN uint clusterTriangles(ClusterRecord cluster) { return (cluster.counts >> 8) & 0xffu; }
+SHARED_FN uint clusterVertices(ClusterRecord cluster)
+{
+	return cluster.counts & 0xffu;
+}
+SHARED_FN uint clusterTriangles(ClusterRecord cluster)
+{
+	return (cluster.counts >> 8) & 0xffu;
+}
 
 // A triangle is one word: three 7-bit vertex indices within the cluster, three edge flags, three seam flags.
 //   bits 0-20  corners 0, 1, 2
 //   bits 21-23 edge e (corner e to e + 1) starts at its end with the lower weld id
 //   bits 24-26 edge e lies on a seam that another triangle owns: its heights come from a SeamEdge
-SHARED_FN uint triangleVertex(uint triangle, uint corner) { return (triangle >> (7u * corner)) & 0x7fu; }
-SHARED_FN uint triangleEdgeFlags(uint triangle) { return (triangle >> 21) & 7u; }
-SHARED_FN uint triangleSeamFlags(uint triangle) { return (triangle >> 24) & 7u; }
+SHARED_FN uint triangleVertex(uint triangle, uint corner)
+{
+	return (triangle >> (7u * corner)) & 0x7fu;
+}
+SHARED_FN uint triangleEdgeFlags(uint triangle)
+{
+	return (triangle >> 21) & 7u;
+}
+SHARED_FN uint triangleSeamFlags(uint triangle)
+{
+	return (triangle >> 24) & 7u;
+}
 SHARED_FN uint packBaseTriangle(uint v0, uint v1, uint v2, uint edge_flags, uint seam_flags)
 {
 	return v0 | (v1 << 7) | (v2 << 14) | (edge_flags << 21) | (seam_flags << 24);
@@ -60,11 +75,11 @@ struct HeightMap
 	GPU_PTR(uint) texels;  // packed little endian: 4 x U8, 2 x U16 or 1 x F32 per word
 	uint width;            // of level 0
 	uint height;
-	uint level_count;      // 1..15
-	uint format;           // HEIGHT_*
-	uint wrap_u;           // WRAP_*
+	uint level_count;  // 1..15
+	uint format;       // HEIGHT_*
+	uint wrap_u;       // WRAP_*
 	uint wrap_v;
-	float factor;          // displacement = (height * factor + offset) * scale, mesh units
+	float factor;  // displacement = (height * factor + offset) * scale, mesh units
 	float offset;
 	uint level_first[MAX_HEIGHT_LEVELS];  // first texel of each level
 };
@@ -93,14 +108,14 @@ SHARED_LAYOUT(SeamCorner, 16, height_map, 12)
 // What the displaced surface is evaluated from. Absent arrays (address 0) are not needed by the scene.
 struct Surface
 {
-	GPU_PTR(vec3) positions;           // per vertex, mesh units
-	GPU_PTR(vec3) directions;          // per vertex: displacement direction of its welded fan, unit or zero
-	GPU_PTR(vec2) uvs;                 // per vertex: height map coordinates, transforms applied
-	GPU_PTR(float) densities;          // per vertex: height texels per mesh unit
-	GPU_PTR(uint) triangles;           // per triangle, see above
-	GPU_PTR(uint) first_seam_edges;    // per triangle: its first SeamEdge; only with seams
+	GPU_PTR(vec3) positions;         // per vertex, mesh units
+	GPU_PTR(vec3) directions;        // per vertex: displacement direction of its welded fan, unit or zero
+	GPU_PTR(vec2) uvs;               // per vertex: height map coordinates, transforms applied
+	GPU_PTR(float) densities;        // per vertex: height texels per mesh unit
+	GPU_PTR(uint) triangles;         // per triangle, see above
+	GPU_PTR(uint) first_seam_edges;  // per triangle: its first SeamEdge; only with seams
 	GPU_PTR(SeamEdge) seam_edges;
-	GPU_PTR(uint) seam_corner_indices; // per vertex: its SeamCorner or NO_INDEX; only with seams
+	GPU_PTR(uint) seam_corner_indices;  // per vertex: its SeamCorner or NO_INDEX; only with seams
 	GPU_PTR(SeamCorner) seam_corners;
 	GPU_PTR(uint) material_height_maps;  // per material: its HeightMap or NO_INDEX
 	GPU_PTR(HeightMap) height_maps;

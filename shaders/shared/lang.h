@@ -11,11 +11,13 @@
 #include <cstddef>
 #include <cstdint>
 
-#define SHARED_BEGIN namespace tessera {
+#define SHARED_BEGIN  \
+	namespace tessera \
+	{
 #define SHARED_END }
 #define SHARED_FN inline
-#define precise             // the C++ side is compiled with -ffp-contract=off
-#define GPU_PTR(T) uint64_t // device address; 0 = absent. In the CPU reference: the address of host memory
+#define precise              // the C++ side is compiled with -ffp-contract=off
+#define GPU_PTR(T) uint64_t  // device address; 0 = absent. In the CPU reference: the address of host memory
 #define AT(T, address, index) (reinterpret_cast<const T*>(address)[index])
 #define SHARED_LAYOUT(T, size, last, offset) \
 	static_assert(sizeof(T) == (size) && offsetof(T, last) == (offset), #T ": host and device layouts differ");
@@ -23,14 +25,38 @@
 namespace tessera
 {
 using uint = uint32_t;
-inline float uintBitsToFloat(uint bits) { return std::bit_cast<float>(bits); }
-inline uint floatBitsToUint(float value) { return std::bit_cast<uint>(value); }
-inline float floor(float value) { return std::floor(value); }
-inline float min(float a, float b) { return a < b ? a : b; }
-inline float max(float a, float b) { return a < b ? b : a; }
-inline uint min(uint a, uint b) { return a < b ? a : b; }
-inline uint max(uint a, uint b) { return a < b ? b : a; }
-inline int bitCount(uint value) { return std::popcount(value); }
+inline float uintBitsToFloat(uint bits)
+{
+	return std::bit_cast<float>(bits);
+}
+inline uint floatBitsToUint(float value)
+{
+	return std::bit_cast<uint>(value);
+}
+inline float floor(float value)
+{
+	return std::floor(value);
+}
+inline float min(float a, float b)
+{
+	return a < b ? a : b;
+}
+inline float max(float a, float b)
+{
+	return a < b ? b : a;
+}
+inline uint min(uint a, uint b)
+{
+	return a < b ? a : b;
+}
+inline uint max(uint a, uint b)
+{
+	return a < b ? b : a;
+}
+inline int bitCount(uint value)
+{
+	return std::popcount(value);
+}
 // The reference always has every code path; shaders compile out what the scene does not need.
 inline constexpr bool HAS_DISPLACEMENT = true;
 inline constexpr bool HAS_SEAMS = true;
@@ -54,15 +80,36 @@ spirv_execution_mode(capabilities = [4466], 4461, 32);  // SignedZeroInfNanPrese
 #define GPU_PTR(T) T##Ref
 #define AT(T, address, index) ((address).at[index])
 // Every array begins on a 16-byte boundary: the host allocates them so.
-#define SHARED_LAYOUT(T, size, last, offset) \
-	layout(buffer_reference, scalar, buffer_reference_align = 16) buffer T##Ref { T at[]; };
+#define SHARED_LAYOUT(T, size, last, offset)                                    \
+	layout(buffer_reference, scalar, buffer_reference_align = 16) buffer T##Ref \
+	{                                                                           \
+		T at[];                                                                 \
+	};
 
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer uintRef { uint at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer floatRef { float at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer vec2Ref { vec2 at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer vec3Ref { vec3 at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer vec4Ref { vec4 at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer uvec2Ref { uvec2 at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer uintRef
+{
+	uint at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer floatRef
+{
+	float at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer vec2Ref
+{
+	vec2 at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer vec3Ref
+{
+	vec3 at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer vec4Ref
+{
+	vec4 at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer uvec2Ref
+{
+	uvec2 at[];
+};
 
 #endif
 

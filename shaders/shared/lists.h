@@ -9,14 +9,14 @@ SHARED_BEGIN
 // draw with one workgroup per entry, laid out as rows of group_width (device limits forbid one long row).
 struct ListHead
 {
-	uint group_width;   // constant, set by the host
-	uint group_rows;    // rows begun: grows with the entries
-	uint group_depth;   // 1
-	uint wanted;        // entries the producers asked for; more than capacity: the frame is coarsened (C2)
-	uint capacity;      // entries the buffer holds
-	uint peak;          // largest `wanted` since the list was made
-	uint peak_used;     // most entries that a drawn frame held
-	uint unused[57];    // heads lie 256 B apart, so that appends to different lists do not share a cache line
+	uint group_width;  // constant, set by the host
+	uint group_rows;   // rows begun: grows with the entries
+	uint group_depth;  // 1
+	uint wanted;       // entries the producers asked for; more than capacity: the frame is coarsened (C2)
+	uint capacity;     // entries the buffer holds
+	uint peak;         // largest `wanted` since the list was made
+	uint peak_used;    // most entries that a drawn frame held
+	uint unused[57];   // heads lie 256 B apart, so that appends to different lists do not share a cache line
 };
 SHARED_LAYOUT(ListHead, 256, unused, 28)
 
@@ -27,7 +27,7 @@ SHARED_LAYOUT(ListHead, 256, unused, 28)
 #define LIST_SPLIT_TRIANGLES 3u
 #define LIST_PART_TRIANGLES 4u
 #define LIST_BATCHES 5u
-#define LIST_EXPANDED_VERTICES 6u
+#define LIST_MICRO_VERTICES 6u
 #define LIST_EXPANDED_TRIANGLES 7u
 #define LIST_COUNT 8u
 
@@ -36,16 +36,15 @@ SHARED_LAYOUT(ListHead, 256, unused, 28)
 // What a frame counts beside its lists.
 struct FrameCounts
 {
-	uint overflow;          // 1: some list wanted more than its capacity; nothing is drawn from this attempt
+	uint overflow;  // 1: some list wanted more than its capacity; nothing is drawn from this attempt
 	uint covered_pixels;
-	uint micro_low;         // micro-triangles of part triangles, 64 bits in two words
+	uint micro_low;  // micro-triangles of part triangles, 64 bits in two words
 	uint micro_high;
 	uint full_cluster_triangles;
-	uint expanded_vertices;   // taken so far by expand_triangles
-	uint expanded_triangles;
+	uint expanded_triangles;             // taken so far by evaluate_vertices
 	uint split_count[MAX_SPLIT_LEVELS];  // split triangles appended per level; level 0 by cluster_classify
 };
-SHARED_LAYOUT(FrameCounts, 156, split_count, 28)
+SHARED_LAYOUT(FrameCounts, 152, split_count, 24)
 
 // An entry of cluster_groups: up to CLUSTER_GROUP_SIZE clusters of one instance.
 #define CLUSTER_GROUP_SIZE 64u
@@ -57,13 +56,36 @@ struct ClusterGroup
 };
 SHARED_LAYOUT(ClusterGroup, 12, cluster_count, 8)
 
-// A batch: consecutive part triangles that one mesh-shader workgroup draws.
+// A cluster that is drawn as stored.
+struct FullCluster
+{
+	uint visible_cluster;  // index into visible_clusters
+	uint first_vertex;     // its range of micro_vertices, where vertices are kept there
+};
+SHARED_LAYOUT(FullCluster, 8, first_vertex, 4)
+
+// A batch: consecutive part triangles that one workgroup draws.
+struct Batch
+{
+	uint parts;         // packBatch
+	uint first_vertex;  // its range of micro_vertices, where vertices are kept there
+};
+SHARED_LAYOUT(Batch, 8, first_vertex, 4)
 #define BATCH_MAX_PARTS 32u
 #define BATCH_MAX_VERTICES 96u
 #define BATCH_MAX_TRIANGLES 128u
-SHARED_FN uint packBatch(uint first_part, uint part_count) { return first_part | ((part_count - 1u) << 24); }
-SHARED_FN uint batchFirst(uint batch) { return batch & 0xffffffu; }
-SHARED_FN uint batchCount(uint batch) { return ((batch >> 24) & 31u) + 1u; }
+SHARED_FN uint packBatch(uint first_part, uint part_count)
+{
+	return first_part | ((part_count - 1u) << 24);
+}
+SHARED_FN uint batchFirst(uint batch)
+{
+	return batch & 0xffffffu;
+}
+SHARED_FN uint batchCount(uint batch)
+{
+	return ((batch >> 24) & 31u) + 1u;
+}
 
 SHARED_END
 

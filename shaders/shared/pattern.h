@@ -24,8 +24,14 @@ struct TableView
 };
 SHARED_LAYOUT(TableView, 24, triangles, 16)
 
-SHARED_FN uint patternTriangles(PatternRange pattern) { return pattern.counts & 0xffffu; }
-SHARED_FN uint patternVertices(PatternRange pattern) { return pattern.counts >> 16; }
+SHARED_FN uint patternTriangles(PatternRange pattern)
+{
+	return pattern.counts & 0xffffu;
+}
+SHARED_FN uint patternVertices(PatternRange pattern)
+{
+	return pattern.counts >> 16;
+}
 
 // Index of pattern (a, b, c), a >= b >= c >= 1, in increasing order: (1,1,1) (2,1,1) (2,2,1) (2,2,2) (3,1,1) ...
 SHARED_FN uint patternIndex(uint a, uint b, uint c)
@@ -44,13 +50,21 @@ SHARED_FN DomainPiece inPatternOrder(DomainPiece piece)
 	bool c_first = !b_first && piece.c > piece.a;
 	if (b_first)
 	{
-		turned.c0 = piece.c1; turned.c1 = piece.c2; turned.c2 = piece.c0;
-		turned.a = piece.b; turned.b = piece.c; turned.c = piece.a;
+		turned.c0 = piece.c1;
+		turned.c1 = piece.c2;
+		turned.c2 = piece.c0;
+		turned.a = piece.b;
+		turned.b = piece.c;
+		turned.c = piece.a;
 	}
 	if (c_first)
 	{
-		turned.c0 = piece.c2; turned.c1 = piece.c0; turned.c2 = piece.c1;
-		turned.a = piece.c; turned.b = piece.a; turned.c = piece.b;
+		turned.c0 = piece.c2;
+		turned.c1 = piece.c0;
+		turned.c2 = piece.c1;
+		turned.a = piece.c;
+		turned.b = piece.a;
+		turned.c = piece.b;
 	}
 	if (turned.b >= turned.c)
 		return turned;

@@ -111,7 +111,8 @@ SHARED_FN HeightSource ownHeightSource(Surface surface, BaseTriangle base, vec3 
 	HeightSource source;
 	source.uv.x = weighted(uv0.x, uv1.x, uv2.x, weights);
 	source.uv.y = weighted(uv0.y, uv1.y, uv2.y, weights);
-	source.density = weighted(AT(float, surface.densities, base.v0), AT(float, surface.densities, base.v1), AT(float, surface.densities, base.v2), weights);
+	source.density =
+		weighted(AT(float, surface.densities, base.v0), AT(float, surface.densities, base.v1), AT(float, surface.densities, base.v2), weights);
 	source.height_map = base.height_map;
 	return source;
 }
@@ -183,7 +184,8 @@ SHARED_FN precise float displacementAt(Surface surface, HeightSource source, vec
 	precise float footprint_squared = mesh_segment_squared * density_squared;
 	float level = heightLevel(footprint_squared, AT(HeightMap, surface.height_maps, source.height_map).level_count);
 	float height = heightAt(surface, source.height_map, source.uv, level);
-	precise float scaled = height * AT(HeightMap, surface.height_maps, source.height_map).factor + AT(HeightMap, surface.height_maps, source.height_map).offset;
+	precise float scaled =
+		height * AT(HeightMap, surface.height_maps, source.height_map).factor + AT(HeightMap, surface.height_maps, source.height_map).offset;
 	precise float displacement = scaled * view.displacement_scale;
 	return displacement;
 }
@@ -206,7 +208,8 @@ SHARED_FN SurfacePoint surfacePoint(Surface surface, BaseTriangle base, DomainPo
 	point.displaced = point.base;
 	if (HAS_DISPLACEMENT)
 	{
-		vec3 direction = normalized(weightedVec3(AT(vec3, surface.directions, base.v0), AT(vec3, surface.directions, base.v1), AT(vec3, surface.directions, base.v2), weights));
+		vec3 direction = normalized(weightedVec3(AT(vec3, surface.directions, base.v0), AT(vec3, surface.directions, base.v1),
+												 AT(vec3, surface.directions, base.v2), weights));
 		HeightSource source = heightSource(surface, base, p, weights);
 		float displacement = displacementAt(surface, source, point.base, placement, view);
 		point.displaced = displacedPoint(point.base, direction, displacement);

@@ -11,21 +11,21 @@ struct View
 {
 	vec3 eye_high;  // world position of the eye = eye_high + eye_low
 	vec3 eye_low;
-	vec3 right;     // rows of the world to view rotation
+	vec3 right;  // rows of the world to view rotation
 	vec3 up;
 	vec3 forward;
-	float unit;             // the power of two
+	float unit;                  // the power of two
 	float inverse_unit_squared;  // 1 / unit^2, exact
-	float focal_x;          // clip.x = focal_x * view.x
+	float focal_x;               // clip.x = focal_x * view.x
 	float focal_y;
-	float depth_slope;      // clip.z = depth_slope * depth + depth_offset   (perspective: 0, near; reverse z, infinite far)
+	float depth_slope;  // clip.z = depth_slope * depth + depth_offset   (perspective: 0, near; reverse z, infinite far)
 	float depth_offset;
-	float w_slope;          // clip.w = w_slope * depth + w_offset           (perspective: 1, 0; orthographic: 0, 1)
+	float w_slope;  // clip.w = w_slope * depth + w_offset           (perspective: 1, 0; orthographic: 0, 1)
 	float w_offset;
-	float near;             // scaled
-	float distance_weight;  // perspective 1, orthographic 0
-	float distance_floor_squared;  // near squared; orthographic: one world unit squared
-	float rate_over_focal_squared; // s^2 of the granted rate; +infinity: every factor is 1
+	float near;                       // scaled
+	float distance_weight;            // perspective 1, orthographic 0
+	float distance_floor_squared;     // near squared; orthographic: one world unit squared
+	float rate_over_focal_squared;    // s^2 of the granted rate; +infinity: every factor is 1
 	float sample_over_focal_squared;  // the same for mip levels; 0 when the rate is 0
 	float displacement_scale;
 	uint width_px;

@@ -1,7 +1,7 @@
 // batch_parts: pack consecutive part triangles into batches, each for one workgroup of the rasterising stages.
 //
 //   in   part_triangles   DomainTriangle[]   from cluster_classify and triangle_split
-//   out  batches          uint[]             packBatch: first part and count; at most 32 parts, 96 vertices, 128 triangles
+//   out  batches          Batch[]            first part and count; at most 32 parts, 96 vertices, 128 triangles
 //
 // One workgroup takes PARTS_PER_GROUP parts at a time: prefix sums of their vertices and triangles give, for every part,
 // where a batch that starts there would end; pointer jumping marks the starts that are reached from the first.
@@ -24,6 +24,7 @@ shared uint jumps[PARTS_PER_GROUP + 1u];
 shared uint marks[PARTS_PER_GROUP + 1u];
 shared uint batch_count;
 shared uint first_batch;
+shared uint first_vertex;
 
 uint partSize(uint part, uint count)
 {
@@ -119,15 +120,14 @@ void main()
 		{
 			first_batch = reserveEntries(args.heads, LIST_BATCHES, batch_count);
 			addMicroTriangles(args.counts, sums[PARTS_PER_GROUP] >> 16);
-			if (COUNTS_EXPANDED)
-			{
-				reserveEntries(args.heads, LIST_EXPANDED_VERTICES, sums[PARTS_PER_GROUP] & 0xffffu);
+			if (KEEPS_VERTICES)
+				first_vertex = reserveEntries(args.heads, LIST_MICRO_VERTICES, sums[PARTS_PER_GROUP] & 0xffffu);
+			if (EXPANDS_TRIANGLES)
 				reserveEntries(args.heads, LIST_EXPANDED_TRIANGLES, sums[PARTS_PER_GROUP] >> 16);
-			}
 		}
 		barrier();
 		if (starts && first_batch + place < args.heads.at[LIST_BATCHES].capacity)
-			args.batches.at[first_batch + place] = packBatch(first + lane, end - lane);
+			args.batches.at[first_batch + place] = Batch(packBatch(first + lane, end - lane), first_vertex + (sums[lane] & 0xffffu));
 		barrier();
 	}
 }

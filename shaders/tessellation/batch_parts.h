@@ -12,7 +12,7 @@ struct BatchPartsArgs
 	GPU_PTR(FrameCounts) counts;
 	GPU_PTR(DomainTriangle) part_triangles;
 	GPU_PTR(PatternRange) patterns;
-	GPU_PTR(uint) batches;
+	GPU_PTR(Batch) batches;
 };
 SHARED_LAYOUT(BatchPartsArgs, 40, batches, 32)
 

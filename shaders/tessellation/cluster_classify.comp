@@ -1,7 +1,7 @@
 // cluster_classify: decide, per visible cluster, what each triangle becomes.
 //
 //   in   visible_clusters   ClusterRef[]       from cluster_cull
-//   out  full_clusters      uint[]             indices of visible clusters whose factors are all 1: drawn as stored
+//   out  full_clusters      FullCluster[]      visible clusters whose factors are all 1: drawn as stored
 //   out  split_triangles    DomainTriangle[]   some factor exceeds the table: level 0 of triangle_split
 //   out  part_triangles     DomainTriangle[]   fits the table: to batch_parts
 //
@@ -60,9 +60,7 @@ void reserve(ClusterRecord cluster, uint index)
 	if (tessellated == 0u)
 	{
 		uint slot = reserveEntries(args.heads, LIST_FULL_CLUSTERS, 1u);
-		if (slot < args.heads.at[LIST_FULL_CLUSTERS].capacity)
-			args.full_clusters.at[slot] = index;
-		countFullCluster(args.heads, args.counts, cluster);
+		listFullCluster(args.heads, args.counts, args.full_clusters, slot, index, cluster);
 		return;
 	}
 	if (part_count > 0u)

@@ -17,7 +17,7 @@ struct ClusterClassifyArgs
 	GPU_PTR(ListHead) heads;
 	GPU_PTR(FrameCounts) counts;
 	GPU_PTR(ClusterRef) visible_clusters;
-	GPU_PTR(uint) full_clusters;
+	GPU_PTR(FullCluster) full_clusters;
 	GPU_PTR(DomainTriangle) split_triangles;  // 0 when no split can occur
 	GPU_PTR(DomainTriangle) part_triangles;
 	FactorRule rule;

@@ -14,9 +14,12 @@ VkSamplerAddressMode addressMode(Wrap wrap)
 {
 	switch (wrap)
 	{
-	case Wrap::ClampToEdge: return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-	case Wrap::MirroredRepeat: return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
-	default: return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+	case Wrap::ClampToEdge:
+		return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+	case Wrap::MirroredRepeat:
+		return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+	default:
+		return VK_SAMPLER_ADDRESS_MODE_REPEAT;
 	}
 }
 
@@ -26,7 +29,8 @@ void blitLevels(VkCommandBuffer commands, const ImageResource& image)
 	for (uint32_t level = 1; level < image.desc().levels; ++level)
 	{
 		const auto extent = [&](uint32_t l) {
-			return VkOffset3D{ static_cast<int32_t>(std::max(image.desc().width >> l, 1u)), static_cast<int32_t>(std::max(image.desc().height >> l, 1u)), 1 };
+			return VkOffset3D{ static_cast<int32_t>(std::max(image.desc().width >> l, 1u)),
+							   static_cast<int32_t>(std::max(image.desc().height >> l, 1u)), 1 };
 		};
 		VkImageBlit blit = {};
 		blit.srcSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, level - 1, 0, 1 };

@@ -96,14 +96,14 @@ std::span<const std::byte> asBytes(const std::vector<T>& values)
 }  // namespace
 
 Result<std::unique_ptr<FrameResources>> FrameResources::create(Device& device, const BuiltScene& scene, const TessellationTable& table,
-                                                               const PlanInput& input)
+															   const PlanInput& input)
 {
 	std::unique_ptr<FrameResources> resources(new FrameResources(device, scene, table));
 	TRY_ASSIGN(resources->capacities_, listCapacities(input));
 	TRY_ASSIGN(resources->commands_, CommandRecorder::create(device));
 	TRY_ASSIGN(resources->bindless_, BindlessSet::create(device));
 	TRY_ASSIGN(resources->readback_,
-	           Buffer::create(device, LIST_COUNT * sizeof(ListHead) + sizeof(FrameCounts), MemoryKind::Readback, "counts readback"));
+			   Buffer::create(device, LIST_COUNT * sizeof(ListHead) + sizeof(FrameCounts), MemoryKind::Readback, "counts readback"));
 	return resources;
 }
 
@@ -156,7 +156,9 @@ Status FrameResources::makeHeightMaps()
 
 Status FrameResources::makeSurface(const FramePlan& plan)
 {
-	const auto kept = [&](std::string_view name) { return plan.keeps(name) ? address(name) : 0; };
+	const auto kept = [&](std::string_view name) {
+		return plan.keeps(name) ? address(name) : 0;
+	};
 	Surface surface = {};
 	surface.positions = kept("positions");
 	surface.directions = scene_.traits.directions_are_normals ? kept("normals") : kept("directions");
@@ -174,7 +176,9 @@ Status FrameResources::makeSurface(const FramePlan& plan)
 
 Status FrameResources::makeShadingData(const FramePlan& plan)
 {
-	const auto kept = [&](std::string_view name) { return plan.keeps(name) ? address(name) : 0; };
+	const auto kept = [&](std::string_view name) {
+		return plan.keeps(name) ? address(name) : 0;
+	};
 	const ShadingData shading = { kept("normals"), kept("color_uvs"), kept("colors"), kept("materials") };
 	return upload("shading", std::as_bytes(std::span(&shading, 1)));
 }
@@ -281,6 +285,24 @@ Status FrameResources::prepare(const FramePlan& plan, const PlanInput& input)
 	if (!has("shading"))
 		TRY(makeShadingData(plan));
 	return lists_changed ? makeHeads() : Status{};
+}
+
+bool FrameResources::grow(const ListDesc& list, uint32_t wanted, const PlanInput& input)
+{
+	const std::string name(list.name);
+	if (!growsOnDemand(list) || !has(name) || input.options.capacities.count(name) || wanted > mostEntries(list))
+		return false;
+	const uint64_t capacity = std::min<uint64_t>(uint64_t(wanted) * 5 / 4, mostEntries(list));
+	buffers_.erase(name);
+	auto made = Buffer::create(device_, listBytes(list, static_cast<uint32_t>(capacity)), MemoryKind::Device, name);
+	if (made)
+	{
+		buffers_[name] = std::move(*made);
+		capacities_[list.index] = static_cast<uint32_t>(capacity);
+	}
+	else if (!allocate(name, listBytes(list, capacities_[list.index])))
+		return false;
+	return makeHeads().has_value() && made.has_value();
 }
 
 Status FrameResources::writeView(const View& view, uint32_t round)

@@ -19,10 +19,12 @@ class FrameResources
 {
 public:
 	static Result<std::unique_ptr<FrameResources>> create(Device& device, const BuiltScene& scene, const TessellationTable& table,
-	                                                      const PlanInput& input);
+														  const PlanInput& input);
 
 	// Makes and fills what the plan keeps and does not exist yet.
 	Status prepare(const FramePlan& plan, const PlanInput& input);
+	// Makes a list that grows on demand hold at least `wanted`. False when it may not or memory is short.
+	bool grow(const ListDesc& list, uint32_t wanted, const PlanInput& input);
 	Status writeView(const View& view, uint32_t round);
 
 	uint64_t address(std::string_view name) const;

@@ -16,12 +16,12 @@ constexpr uint32_t kIndexLimit = (1u << 24) - 1;  // the payload's index has 24 
 constexpr ListDesc kLists[] = {
 	{ "cluster_groups", LIST_CLUSTER_GROUPS, 12, kMillion, 1 },
 	{ "visible_clusters", LIST_VISIBLE_CLUSTERS, 8, kMillion, CLUSTER_GROUP_SIZE },
-	{ "full_clusters", LIST_FULL_CLUSTERS, 4, kMillion, CLUSTER_GROUP_SIZE },
+	{ "full_clusters", LIST_FULL_CLUSTERS, 8, kMillion, CLUSTER_GROUP_SIZE },
 	{ "split_triangles", LIST_SPLIT_TRIANGLES, 24, kMillion / 4, 1 },
 	{ "part_triangles", LIST_PART_TRIANGLES, 24, kMillion, 1 },
-	{ "batches", LIST_BATCHES, 4, kMillion, 1 },
-	{ "expanded_vertices", LIST_EXPANDED_VERTICES, 16, 8 * kMillion, 128 },
-	{ "expanded_triangles", LIST_EXPANDED_TRIANGLES, 16, 16 * kMillion, 128 },
+	{ "batches", LIST_BATCHES, 8, kMillion, 1 },
+	{ "micro_vertices", LIST_MICRO_VERTICES, 16, kMillion, 128 },
+	{ "expanded_triangles", LIST_EXPANDED_TRIANGLES, 16, kMillion, 128 },
 };
 
 // Most entries that the scene itself can ask for, whatever the rate: 0 = no such bound.
@@ -30,14 +30,27 @@ uint64_t sceneBound(const ListDesc& list, const PlanInput& input)
 	const uint64_t clusters = input.sizes.instanced_clusters;
 	switch (list.index)
 	{
-	case LIST_CLUSTER_GROUPS: return clusters / CLUSTER_GROUP_SIZE + input.sizes.instances;
+	case LIST_CLUSTER_GROUPS:
+		return clusters / CLUSTER_GROUP_SIZE + input.sizes.instances;
 	case LIST_VISIBLE_CLUSTERS:
-	case LIST_FULL_CLUSTERS: return clusters;
-	default: return 0;
+	case LIST_FULL_CLUSTERS:
+		return clusters;
+	default:
+		return 0;
 	}
 }
 
 }  // namespace
+
+uint32_t mostEntries(const ListDesc& list)
+{
+	return growsOnDemand(list) ? 0x0fffffff : kIndexLimit;
+}
+
+bool growsOnDemand(const ListDesc& list)
+{
+	return list.index == LIST_MICRO_VERTICES || list.index == LIST_EXPANDED_TRIANGLES;
+}
 
 std::span<const ListDesc> listDescs()
 {
@@ -62,8 +75,8 @@ Result<std::array<uint32_t, LIST_COUNT>> listCapacities(const PlanInput& input)
 		const ListDesc* list = findList(name);
 		if (!list)
 			return fail(ExitCode::Usage, "--capacity {}: no such list; `tessera info --print-plan` names them", name);
-		if (capacity < list->least_capacity || capacity > (list->index < LIST_EXPANDED_VERTICES ? kIndexLimit : 0x10000000u))
-			return fail(ExitCode::Usage, "--capacity {}={}: must lie between {} and {}", name, capacity, list->least_capacity, kIndexLimit);
+		if (capacity < list->least_capacity || capacity > mostEntries(*list))
+			return fail(ExitCode::Usage, "--capacity {}={}: must lie between {} and {}", name, capacity, list->least_capacity, mostEntries(*list));
 	}
 	std::array<uint32_t, LIST_COUNT> capacities = {};
 	for (const ListDesc& list : kLists)

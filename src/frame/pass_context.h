@@ -16,7 +16,7 @@ class PassContext
 {
 public:
 	PassContext(const Device& device, VkCommandBuffer commands, const FrameResources& resources, const Pipeline& pipeline, VkPipelineLayout layout,
-	            const PlanStep& step, const PlanInput& input)
+				const PlanStep& step, const PlanInput& input)
 		: device_(device), commands_(commands), resources_(resources), pipeline_(pipeline), layout_(layout), step_(step), input_(input)
 	{}
 

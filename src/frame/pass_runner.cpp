@@ -24,20 +24,29 @@ StageAccess stageAccessOf(Access access)
 	constexpr VkAccessFlags2 kWrite = VK_ACCESS_2_SHADER_WRITE_BIT;
 	switch (access)
 	{
-	case Access::ComputeRead: return { VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, kRead };
-	case Access::ComputeWrite: return { VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, kRead | kWrite };
-	case Access::Indirect: return { VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT };
-	case Access::MeshRead: return { VK_PIPELINE_STAGE_2_MESH_SHADER_BIT_EXT, kRead };
-	case Access::VertexRead: return { VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT, kRead };
-	case Access::IndexRead: return { VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT };
-	case Access::FragmentRead: return { VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, kRead };
+	case Access::ComputeRead:
+		return { VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, kRead };
+	case Access::ComputeWrite:
+		return { VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, kRead | kWrite };
+	case Access::Indirect:
+		return { VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT };
+	case Access::MeshRead:
+		return { VK_PIPELINE_STAGE_2_MESH_SHADER_BIT_EXT, kRead };
+	case Access::VertexRead:
+		return { VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT, kRead };
+	case Access::IndexRead:
+		return { VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT };
+	case Access::FragmentRead:
+		return { VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, kRead };
 	case Access::Color:
 		return { VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT };
 	case Access::Depth:
 		return { VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-			     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT };
-	case Access::CopyRead: return { VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT };
-	case Access::CopyWrite: return { VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT };
+				 VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT };
+	case Access::CopyRead:
+		return { VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT };
+	case Access::CopyWrite:
+		return { VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT };
 	}
 	return {};
 }
@@ -181,8 +190,8 @@ Status PassRunner::readTimes()
 		return {};
 	std::vector<uint64_t> ticks(step_count_ + 1);
 	VK_TRY(vkGetQueryPoolResults(device_.handle, queries_, 0, static_cast<uint32_t>(ticks.size()), ticks.size() * sizeof(uint64_t), ticks.data(),
-	                             sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-	       "reading the timers");
+								 sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+		   "reading the timers");
 	const double ms_per_tick = device_.limits.timestamp_ns * 1e-6;
 	for (size_t i = 0; i < step_count_; ++i)
 		step_ms_[i] = double(ticks[i + 1] - ticks[i]) * ms_per_tick;

@@ -17,7 +17,7 @@ struct Attempt
 struct AttemptOutcome
 {
 	bool fits = false;
-	double worst_ratio = 1;        // largest wanted / capacity over the lists that the rate decides
+	double worst_ratio = 1;          // largest wanted / capacity over the lists that the rate decides
 	bool clusters_overflow = false;  // a list that no rate can relieve (clusters) wanted more than it holds
 };
 

@@ -48,10 +48,11 @@ Status checkGates(const Device& device, const RenderOptions& options)
 		return fail(ExitCode::DeviceCannot, "--raster mesh: {} lacks VK_EXT_mesh_shader; --raster indexed needs no mesh shaders", device.name);
 	const bool indexed = options.raster == Raster::Indexed || !device.gates.mesh_shader;
 	if (indexed && !device.gates.fragment_primitive_id)
-		return fail(ExitCode::DeviceCannot, "--raster indexed: {} lacks primitive ids in fragment shaders (geometryShader) or 32-bit indices", device.name);
+		return fail(ExitCode::DeviceCannot, "--raster indexed: {} lacks primitive ids in fragment shaders (geometryShader) or 32-bit indices",
+					device.name);
 	if (options.width_px == 0 || options.height_px == 0 || std::max(options.width_px, options.height_px) > device.limits.max_image_extent)
 		return fail(ExitCode::Usage, "--size {}x{}: {} can draw from 1x1 to {}x{}", options.width_px, options.height_px, device.name,
-		            device.limits.max_image_extent, device.limits.max_image_extent);
+					device.limits.max_image_extent, device.limits.max_image_extent);
 	return {};
 }
 
@@ -61,7 +62,7 @@ class SceneRenderer final : public Renderer
 {
 public:
 	SceneRenderer(Device& device, const BuiltScene& scene, const TessellationTable& table, std::span<const PassDesc* const> passes,
-	              const RenderOptions& options)
+				  const RenderOptions& options)
 		: device_(device), scene_(scene), table_(table), passes_(passes)
 	{
 		input_ = { options, scene.traits, sizesOf(scene), traitsOf(device), {} };
@@ -85,7 +86,7 @@ public:
 			const Attempt attempt = controller_.next();
 			TRY_ASSIGN(FrameResult result, drawAttempt(camera, attempt));
 			result.attempts = attempts;
-			if (lacked_levels_)
+			if (grew_)
 				continue;
 			if (controller_.accept(outcome_))
 				return result;
@@ -131,8 +132,8 @@ private:
 
 	Result<FramePlan> planFor(const Camera& camera, const Attempt& attempt)
 	{
-		const FactorBound bound = boundFactors(camera, scene_, requestFor(attempt), table_.max_edge_segments,
-		                                       std::min(input_.options.max_split, table_.max_edge_segments));
+		const FactorBound bound =
+			boundFactors(camera, scene_, requestFor(attempt), table_.max_edge_segments, std::min(input_.options.max_split, table_.max_edge_segments));
 		input_.view.factors_above_one = bound.above_one;
 		input_.view.split_levels = bound.split_levels > 0 || levels_needed_ > 0 ? std::max(bound.split_levels, levels_needed_) : 0;
 		input_.view.rounds = attempt.rounds;
@@ -142,7 +143,7 @@ private:
 	// One attempt: plans, draws all rounds, and leaves in outcome_ whether everything fitted.
 	Result<FrameResult> drawAttempt(const Camera& camera, const Attempt& attempt)
 	{
-		lacked_levels_ = false;
+		grew_ = false;
 		outcome_ = { true, 1, false };
 		TRY_ASSIGN(view_, makeView(camera, scene_, requestFor(attempt)));
 		TRY_ASSIGN(plan_, planFor(camera, attempt));
@@ -154,7 +155,7 @@ private:
 		result.coarsening = attempt.coarsening;
 		result.every_factor_one = attempt.every_factor_one;
 		result.rounds = attempt.rounds;
-		for (uint32_t round = 0; round < attempt.rounds && outcome_.fits && !lacked_levels_; ++round)
+		for (uint32_t round = 0; round < attempt.rounds && outcome_.fits && !grew_; ++round)
 			TRY(drawRound(round, result));
 		fillLists(result);
 		return result;
@@ -198,8 +199,13 @@ private:
 		if (kTessellates.holds(input_) && counts.split_count[levels] > 0 && levels + 2 < MAX_SPLIT_LEVELS)
 		{
 			levels_needed_ = std::max(levels + 2, 2u);
-			lacked_levels_ = true;
+			grew_ = true;
 			return;
+		}
+		for (const ListDesc& list : listDescs())
+		{
+			const ListHead head = resources_->head(list.index);
+			grew_ |= head.wanted > head.capacity && resources_->grow(list, head.wanted, input_);
 		}
 		outcome_.fits = false;
 		outcome_.worst_ratio = counts.split_count[levels] > 0 ? 2 : 1;
@@ -251,13 +257,13 @@ private:
 	AttemptOutcome outcome_;
 	Camera last_camera_ = {};
 	uint32_t levels_needed_ = 0;  // more split levels than the host foresaw were needed
-	bool lacked_levels_ = false;
+	bool grew_ = false;           // the frame must be drawn again with more levels or larger packings, at the same rate
 };
 
 }  // namespace
 
 Result<std::unique_ptr<Renderer>> Renderer::create(Device& device, const BuiltScene& scene, const TessellationTable& table,
-                                                   std::span<const PassDesc* const> passes, const RenderOptions& options)
+												   std::span<const PassDesc* const> passes, const RenderOptions& options)
 {
 	auto renderer = std::make_unique<SceneRenderer>(device, scene, table, passes, options);
 	TRY(renderer->initialize());

@@ -18,7 +18,7 @@ public:
 	// `passes` in execution order (pipeline/passes.h). The scene, table and device must outlive the renderer.
 	// Errors: DeviceCannot (a gate that the options need is closed), BadInput (out of memory, picture too large).
 	static Result<std::unique_ptr<Renderer>> create(Device& device, const BuiltScene& scene, const TessellationTable& table,
-	                                                std::span<const PassDesc* const> passes, const RenderOptions& options);
+													std::span<const PassDesc* const> passes, const RenderOptions& options);
 	virtual ~Renderer() = default;
 
 	// One picture. When lists overflow it is counted again at a coarser rate until it fits; nothing is dropped (C2).

@@ -9,21 +9,45 @@ namespace
 {
 
 template <uint32_t bytes>
-uint64_t perVertex(const PlanInput& input) { return input.sizes.vertices * bytes; }
+uint64_t perVertex(const PlanInput& input)
+{
+	return input.sizes.vertices * bytes;
+}
 template <uint32_t bytes>
-uint64_t perTriangle(const PlanInput& input) { return input.sizes.triangles * bytes; }
+uint64_t perTriangle(const PlanInput& input)
+{
+	return input.sizes.triangles * bytes;
+}
 template <uint32_t bytes>
-uint64_t perCluster(const PlanInput& input) { return input.sizes.clusters * bytes; }
+uint64_t perCluster(const PlanInput& input)
+{
+	return input.sizes.clusters * bytes;
+}
 template <uint32_t bytes>
-uint64_t perMesh(const PlanInput& input) { return input.sizes.meshes * bytes; }
+uint64_t perMesh(const PlanInput& input)
+{
+	return input.sizes.meshes * bytes;
+}
 template <uint32_t bytes>
-uint64_t perInstance(const PlanInput& input) { return input.sizes.instances * bytes; }
+uint64_t perInstance(const PlanInput& input)
+{
+	return input.sizes.instances * bytes;
+}
 template <uint32_t bytes>
-uint64_t perMaterial(const PlanInput& input) { return input.sizes.materials * bytes; }
+uint64_t perMaterial(const PlanInput& input)
+{
+	return input.sizes.materials * bytes;
+}
 template <uint32_t bytes>
-uint64_t perPixel(const PlanInput& input) { return uint64_t(input.options.width_px) * input.options.height_px * bytes; }
+uint64_t perPixel(const PlanInput& input)
+{
+	return uint64_t(input.options.width_px) * input.options.height_px * bytes;
+}
 template <uint64_t bytes>
-uint64_t fixedBytes(const PlanInput&) { return bytes; }
+uint64_t fixedBytes(const PlanInput&)
+{
+	return bytes;
+}
 
 template <uint32_t list>
 uint64_t ofList(const PlanInput& input)
@@ -45,9 +69,15 @@ constexpr ResourceDesc kResources[] = {
 	{ "colors", "attribute", perVertex<4> },
 	{ "triangles", "buffer", perTriangle<4> },
 	{ "first_seam_edges", "buffer", perTriangle<4> },
-	{ "seam_edges", "buffer", [](const PlanInput& input) -> uint64_t { return input.sizes.seam_edges * sizeof(SeamEdge); } },
+	{ "seam_edges", "buffer",
+	  [](const PlanInput& input) -> uint64_t {
+		  return input.sizes.seam_edges * sizeof(SeamEdge);
+	  } },
 	{ "seam_corner_indices", "attribute", perVertex<4> },
-	{ "seam_corners", "buffer", [](const PlanInput& input) -> uint64_t { return input.sizes.seam_corners * sizeof(SeamCorner); } },
+	{ "seam_corners", "buffer",
+	  [](const PlanInput& input) -> uint64_t {
+		  return input.sizes.seam_corners * sizeof(SeamCorner);
+	  } },
 	{ "clusters", "buffer", perCluster<sizeof(ClusterRecord)> },
 	{ "cluster_bounds", "buffer", perCluster<sizeof(DisplacedBounds)> },
 	{ "meshes", "buffer", perMesh<sizeof(MeshRecord)> },
@@ -56,9 +86,18 @@ constexpr ResourceDesc kResources[] = {
 	{ "materials", "buffer", perMaterial<40> },
 	{ "material_flags", "buffer", perMaterial<4> },
 	{ "material_height_maps", "buffer", perMaterial<4> },
-	{ "height_maps", "buffer", [](const PlanInput& input) -> uint64_t { return input.sizes.height_maps * sizeof(HeightMap); } },
-	{ "height_texels", "texture", [](const PlanInput& input) -> uint64_t { return input.sizes.height_texel_bytes; } },
-	{ "color_textures", "texture", [](const PlanInput& input) -> uint64_t { return input.sizes.color_texture_bytes; } },
+	{ "height_maps", "buffer",
+	  [](const PlanInput& input) -> uint64_t {
+		  return input.sizes.height_maps * sizeof(HeightMap);
+	  } },
+	{ "height_texels", "texture",
+	  [](const PlanInput& input) -> uint64_t {
+		  return input.sizes.height_texel_bytes;
+	  } },
+	{ "color_textures", "texture",
+	  [](const PlanInput& input) -> uint64_t {
+		  return input.sizes.color_texture_bytes;
+	  } },
 	{ "patterns", "buffer", fixedBytes<286 * sizeof(PatternRange)> },
 	{ "table_vertices", "buffer", fixedBytes<7059 * 4> },
 	{ "table_triangles", "buffer", fixedBytes<8398 * 4> },
@@ -73,7 +112,7 @@ constexpr ResourceDesc kResources[] = {
 	{ "split_triangles", "list", ofList<LIST_SPLIT_TRIANGLES> },
 	{ "part_triangles", "list", ofList<LIST_PART_TRIANGLES> },
 	{ "batches", "list", ofList<LIST_BATCHES> },
-	{ "expanded_vertices", "list", ofList<LIST_EXPANDED_VERTICES> },
+	{ "micro_vertices", "list", ofList<LIST_MICRO_VERTICES> },
 	{ "expanded_triangles", "list", ofList<LIST_EXPANDED_TRIANGLES> },
 	{ "indexed_draw", "buffer", fixedBytes<20> },
 	{ "visibility_depth", "image", perPixel<4> },

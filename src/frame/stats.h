@@ -16,7 +16,7 @@ struct PassTime
 struct ListStats
 {
 	std::string name;
-	uint64_t wanted = 0;     // of the attempt that was drawn
+	uint64_t wanted = 0;  // of the attempt that was drawn
 	uint32_t capacity = 0;
 	uint32_t peak = 0;       // largest wanted since the list was made, refused attempts included
 	uint32_t peak_used = 0;  // most that a drawn frame held

@@ -99,4 +99,4 @@ void flush(VmaAllocator_T* allocator, const BufferAllocation& allocation)
 	vmaFlushAllocation(allocator, allocation.allocation, 0, VK_WHOLE_SIZE);
 }
 
-} // namespace tessera
+}  // namespace tessera

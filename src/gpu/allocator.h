@@ -15,9 +15,9 @@ void destroyAllocator(VmaAllocator_T* allocator);
 
 enum class MemoryKind
 {
-	Device,   // GPU only
-	Upload,   // written by the host in sequence, read by the GPU
-	Readback, // written by the GPU, read by the host
+	Device,    // GPU only
+	Upload,    // written by the host in sequence, read by the GPU
+	Readback,  // written by the GPU, read by the host
 };
 
 struct BufferAllocation
@@ -40,4 +40,4 @@ void freeImage(VmaAllocator_T* allocator, const ImageAllocation& allocation);
 void invalidate(VmaAllocator_T* allocator, const BufferAllocation& allocation);
 void flush(VmaAllocator_T* allocator, const BufferAllocation& allocation);
 
-} // namespace tessera
+}  // namespace tessera

@@ -103,4 +103,4 @@ Result<Buffer> uploadBuffer(Device& device, CommandRecorder& commands, std::span
 	return buffer;
 }
 
-} // namespace tessera
+}  // namespace tessera

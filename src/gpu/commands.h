@@ -37,4 +37,4 @@ void fullBarrier(VkCommandBuffer commands);
 // From undefined to the layout every image stays in.
 void toGeneralLayout(VkCommandBuffer commands, const ImageResource& image);
 
-} // namespace tessera
+}  // namespace tessera

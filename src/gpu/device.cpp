@@ -150,7 +150,7 @@ Result<uint32_t> chooseQueueFamily(VkPhysicalDevice physical)
 	return fail(ExitCode::DeviceCannot, "{}: no queue with graphics and compute", propertiesOf(physical).deviceName);
 }
 
-} // namespace
+}  // namespace
 
 // Builds a Device step by step; each step leaves it destructible.
 struct DeviceBuilder
@@ -264,4 +264,4 @@ Result<std::vector<std::string>> listDevices()
 	return lines;
 }
 
-} // namespace tessera
+}  // namespace tessera

@@ -14,19 +14,19 @@ namespace tessera
 
 struct DeviceRequest
 {
-	std::string name;      // part of a device's name or its number in the system's order; empty: the fastest kind there is
-	bool validate = false; // core and synchronisation validation
+	std::string name;       // part of a device's name or its number in the system's order; empty: the fastest kind there is
+	bool validate = false;  // core and synchronisation validation
 };
 
 struct DeviceLimits
 {
 	uint32_t subgroup_size = 0;
 	uint32_t max_workgroup_threads = 0;
-	uint32_t mesh_workgroup_threads = 32; // what the device prefers for mesh shaders, within its limits
-	uint32_t max_mesh_rows = 65535;       // second dimension of a mesh draw
+	uint32_t mesh_workgroup_threads = 32;  // what the device prefers for mesh shaders, within its limits
+	uint32_t max_mesh_rows = 65535;        // second dimension of a mesh draw
 	uint32_t max_image_extent = 0;
-	uint32_t loop_workgroups = 0; // workgroups of a dispatch whose threads loop over a list
-	double timestamp_ns = 0;      // per tick; 0: no timestamps
+	uint32_t loop_workgroups = 0;  // workgroups of a dispatch whose threads loop over a list
+	double timestamp_ns = 0;       // per tick; 0: no timestamps
 };
 
 class Device
@@ -66,4 +66,4 @@ private:
 // A line per device of the system, for messages and `info`.
 Result<std::vector<std::string>> listDevices();
 
-} // namespace tessera
+}  // namespace tessera

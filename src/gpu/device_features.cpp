@@ -122,7 +122,7 @@ void describeDevice(Device& device)
 	limits.max_image_extent = std::min(properties.limits.maxImageDimension2D, properties.limits.maxFramebufferWidth);
 	limits.timestamp_ns = properties.limits.timestampComputeAndGraphics ? double(properties.limits.timestampPeriod) : 0;
 	// Enough workgroups to fill any GPU; a processor needs only some per core.
-	limits.loop_workgroups = device.is_cpu ? 64 : 2048;
+	limits.loop_workgroups = device.is_cpu ? 64 : 4096;
 	if (mesh.maxMeshWorkGroupInvocations > 0)
 	{
 		const uint32_t preferred = std::clamp(mesh.maxPreferredMeshWorkGroupInvocations, 32u, 128u);
@@ -131,4 +131,4 @@ void describeDevice(Device& device)
 	}
 }
 
-} // namespace tessera
+}  // namespace tessera

@@ -43,4 +43,4 @@ private:
 // Fills in name, driver, API version and limits of a chosen physical device.
 void describeDevice(Device& device);
 
-} // namespace tessera
+}  // namespace tessera

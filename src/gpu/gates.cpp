@@ -20,4 +20,4 @@ std::vector<Gate> DeviceGates::table() const
 	};
 }
 
-} // namespace tessera
+}  // namespace tessera

@@ -9,16 +9,16 @@ namespace tessera
 
 struct Gate
 {
-	std::string_view name; // key in the stats
+	std::string_view name;  // key in the stats
 	bool open = false;
-	std::string_view instead; // what is done while it is closed
+	std::string_view instead;  // what is done while it is closed
 };
 
 // What a device offers beyond the requirements.
 struct DeviceGates
 {
 	bool mesh_shader = false;
-	bool fragment_primitive_id = false; // geometryShader: gl_PrimitiveID in fragment shaders
+	bool fragment_primitive_id = false;  // geometryShader: gl_PrimitiveID in fragment shaders
 	bool buffer_atomics_64 = false;
 	bool image_atomics_64 = false;
 	bool acceleration_structure = false;
@@ -32,4 +32,4 @@ struct DeviceGates
 	std::vector<Gate> table() const;
 };
 
-} // namespace tessera
+}  // namespace tessera

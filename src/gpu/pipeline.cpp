@@ -63,7 +63,7 @@ VkShaderStageFlagBits stageOfName(std::string_view name)
 	return VK_SHADER_STAGE_COMPUTE_BIT;
 }
 
-} // namespace
+}  // namespace
 
 Result<std::unique_ptr<BindlessSet>> BindlessSet::create(Device& device)
 {
@@ -229,7 +229,7 @@ struct FixedState
 	VkPipelineRenderingCreateInfo rendering = { VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO };
 };
 
-} // namespace
+}  // namespace
 
 Result<Pipeline> makeDrawPipeline(Device& device, VkPipelineLayout layout, std::span<const Shader> shaders, const Constants& constants,
 								  const DrawState& state)
@@ -268,4 +268,4 @@ Result<Pipeline> makeDrawPipeline(Device& device, VkPipelineLayout layout, std::
 	return Pipeline(device, pipeline, VK_PIPELINE_BIND_POINT_GRAPHICS);
 }
 
-} // namespace tessera
+}  // namespace tessera

@@ -85,4 +85,4 @@ struct DrawState
 Result<Pipeline> makeDrawPipeline(Device& device, VkPipelineLayout layout, std::span<const Shader> shaders, const Constants& constants,
 								  const DrawState& state);
 
-} // namespace tessera
+}  // namespace tessera

@@ -77,4 +77,4 @@ void ImageResource::swap(ImageResource& other) noexcept
 	std::swap(desc_, other.desc_);
 }
 
-} // namespace tessera
+}  // namespace tessera

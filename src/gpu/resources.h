@@ -74,4 +74,4 @@ private:
 	ImageDesc desc_;
 };
 
-} // namespace tessera
+}  // namespace tessera

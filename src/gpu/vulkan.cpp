@@ -66,4 +66,4 @@ Error vulkanError(VkResult result, const std::string& what)
 	return { exitCodeOf(result), fmt::format("{}: {} ({}){}", what, vulkanResultName(result), static_cast<int>(result), where) };
 }
 
-} // namespace tessera
+}  // namespace tessera

@@ -23,7 +23,7 @@ struct ExtensionFunctions
 	PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
 };
 
-} // namespace tessera
+}  // namespace tessera
 
 // VK_TRY(call, "creating X {}", name): returns the Error from the calling function when the call fails.
 #define VK_TRY(call, ...)                                                                        \

@@ -14,7 +14,7 @@ extern const PassDesc kClusterClassify;
 extern const PassDesc kTriangleSplit;
 extern const PassDesc kBatchParts;
 extern const PassDesc kRateFit;
-extern const PassDesc kExpandTriangles;
+extern const PassDesc kEvaluateVertices;
 extern const PassDesc kDrawClusters;
 extern const PassDesc kDrawBatches;
 extern const PassDesc kDrawIndexed;

@@ -36,4 +36,4 @@ inline constexpr Condition kColorTextures = { [](const PlanInput& input) { retur
 inline constexpr Condition kVertexColors = { [](const PlanInput& input) { return input.scene.has_vertex_colors; }, "no primitive has COLOR_0" };
 inline constexpr Condition kNormals = { [](const PlanInput& input) { return input.options.smooth_normals; }, "faceted shading needs no normals" };
 
-} // namespace tessera
+}  // namespace tessera

@@ -26,8 +26,9 @@ std::vector<Feature> shaderFeatures(const PlanInput& input)
 		feature("HAS_MIRRORED_INSTANCES", 9, input.scene.has_mirrored_instances, "no instance is mirrored"),
 		feature("HAS_SINGLE_SIDED", 10, input.scene.has_single_sided, "every material is double-sided"),
 		feature("IS_SHADED_VIEW", 11, input.options.view == ViewMode::Shaded, "a debug view is chosen"),
-		feature("COUNTS_EXPANDED", 12, usesIndexed(input), "mesh shaders draw"),
+		feature("KEEPS_VERTICES", 12, usesMesh(input) || usesIndexed(input), "the rasteriser evaluates its own vertices"),
+		feature("EXPANDS_TRIANGLES", 13, usesIndexed(input), "mesh shaders draw"),
 	};
 }
 
-} // namespace tessera
+}  // namespace tessera

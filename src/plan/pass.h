@@ -9,19 +9,19 @@
 namespace tessera
 {
 
-class PassContext; // frame/pass_context.h: what a pass records with
+class PassContext;  // frame/pass_context.h: what a pass records with
 
 enum class Access : uint8_t
 {
 	ComputeRead,
-	ComputeWrite, // also appends: reads and writes
-	Indirect,     // indirect arguments
-	MeshRead,     // mesh shader
-	VertexRead,   // vertex shader
+	ComputeWrite,  // also appends: reads and writes
+	Indirect,      // indirect arguments
+	MeshRead,      // mesh shader
+	VertexRead,    // vertex shader
 	IndexRead,
 	FragmentRead,
-	Color, // colour attachment
-	Depth, // depth attachment
+	Color,  // colour attachment
+	Depth,  // depth attachment
 	CopyRead,
 	CopyWrite,
 };
@@ -46,9 +46,9 @@ struct DeviceTraits
 // What the host knows of the view before it is drawn.
 struct ViewTraits
 {
-	bool factors_above_one = true; // false: no edge of the scene can reach factor 2 from here
-	uint32_t split_levels = 0;     // most levels of triangle_split that can occur; 0: no factor above the table
-	uint32_t rounds = 1;           // a frame in more than one round draws its clusters in turns (C2)
+	bool factors_above_one = true;  // false: no edge of the scene can reach factor 2 from here
+	uint32_t split_levels = 0;      // most levels of triangle_split that can occur; 0: no factor above the table
+	uint32_t rounds = 1;            // a frame in more than one round draws its clusters in turns (C2)
 };
 
 struct PlanInput
@@ -71,34 +71,34 @@ struct Use
 {
 	std::string_view resource;
 	Access access = Access::ComputeRead;
-	const Condition* when = nullptr; // nullptr: always
+	const Condition* when = nullptr;  // nullptr: always
 };
 
 struct PassDesc
 {
-	std::string_view name; // timer label, report key, file stem
+	std::string_view name;  // timer label, report key, file stem
 	std::span<const Use> uses;
-	std::span<const Condition* const> needed;    // all must hold, else the pass is dropped with the reason
-	std::span<const std::string_view> shaders;   // SPIR-V files below shaders/; one compute shader, or the stages of a draw
-	uint32_t (*repeats)(const PlanInput& input); // nullptr: once
+	std::span<const Condition* const> needed;     // all must hold, else the pass is dropped with the reason
+	std::span<const std::string_view> shaders;    // SPIR-V files below shaders/; one compute shader, or the stages of a draw
+	uint32_t (*repeats)(const PlanInput& input);  // nullptr: once
 	void (*record)(PassContext& pass);
 };
 
 // A shader feature: a specialisation constant that compiles code out.
 struct Feature
 {
-	std::string_view name; // constant's name in the shaders
+	std::string_view name;  // constant's name in the shaders
 	uint32_t constant_id = 0;
 	bool on = false;
-	std::string_view reason; // why it is off
+	std::string_view reason;  // why it is off
 };
 
 // A buffer or image that passes use: how large it is when kept.
 struct ResourceDesc
 {
 	std::string_view name;
-	std::string_view kind; // attribute, buffer, list, texture, image
+	std::string_view kind;  // attribute, buffer, list, texture, image
 	uint64_t (*bytes)(const PlanInput& input);
 };
 
-} // namespace tessera
+}  // namespace tessera

@@ -67,7 +67,7 @@ std::vector<const PassDesc*> keepPasses(std::span<const PassDesc* const> passes,
 // Who touched a resource, and which later accesses each touch is already ordered before.
 struct Touches
 {
-	std::map<Access, AccessSet> ordered; // touch -> accesses that a barrier since has ordered after it
+	std::map<Access, AccessSet> ordered;  // touch -> accesses that a barrier since has ordered after it
 };
 using TouchMap = std::map<std::string_view, Touches>;
 
@@ -156,7 +156,7 @@ bool isWritten(const FramePlan& plan, std::string_view resource, const PlanInput
 	return std::any_of(plan.steps.begin(), plan.steps.end(), [&](const PlanStep& step) { return writesOneOf(*step.pass, { resource }, input); });
 }
 
-} // namespace
+}  // namespace
 
 bool FramePlan::has(std::string_view pass) const
 {
@@ -218,4 +218,4 @@ Result<FramePlan> planFrame(std::span<const PassDesc* const> passes, std::span<c
 	return plan;
 }
 
-} // namespace tessera
+}  // namespace tessera

@@ -18,10 +18,10 @@ struct AccessSet
 struct PlanStep
 {
 	const PassDesc* pass = nullptr;
-	uint32_t repeat = 0;       // which repetition of the pass
-	AccessSet wait_for;        // memory barrier before the step: from these earlier accesses ...
-	AccessSet then;            // ... to these of the step; both empty: no barrier
-	bool clears_depth = false; // first to draw into the depth attachment
+	uint32_t repeat = 0;        // which repetition of the pass
+	AccessSet wait_for;         // memory barrier before the step: from these earlier accesses ...
+	AccessSet then;             // ... to these of the step; both empty: no barrier
+	bool clears_depth = false;  // first to draw into the depth attachment
 };
 
 struct DroppedPass
@@ -34,8 +34,8 @@ struct PlannedResource
 {
 	std::string_view name, kind;
 	bool kept = false;
-	std::string reason; // why it is left out
-	uint64_t bytes = 0; // held when kept, saved when not
+	std::string reason;  // why it is left out
+	uint64_t bytes = 0;  // held when kept, saved when not
 };
 
 struct FramePlan
@@ -46,7 +46,7 @@ struct FramePlan
 	std::vector<Feature> features;
 
 	bool has(std::string_view pass) const;
-	std::string reason(std::string_view pass) const; // empty when kept or unknown
+	std::string reason(std::string_view pass) const;  // empty when kept or unknown
 	bool keeps(std::string_view resource) const;
 	// Every read of something that a step writes has an earlier write and a barrier since.
 	bool everyReadHasAnEarlierWriteAndABarrier(const PlanInput& input) const;
@@ -60,4 +60,4 @@ Result<FramePlan> planFrame(std::span<const PassDesc* const> passes, std::span<c
 // Features of the shaders for this scene and these options; nothing here depends on the view.
 std::vector<Feature> shaderFeatures(const PlanInput& input);
 
-} // namespace tessera
+}  // namespace tessera

@@ -35,22 +35,22 @@ enum class ViewMode : uint8_t
 struct CullOptions
 {
 	bool frustum = true;
-	bool backface = true; // whole clusters by their normal cone; single back faces are never shown in either case
+	bool backface = true;  // whole clusters by their normal cone; single back faces are never shown in either case
 	bool any() const { return frustum || backface; }
 };
 
 struct RenderOptions
 {
-	float rate = 4;         // pixels per segment; 0 = off
-	uint32_t max_split = 8; // pieces per edge in one split
+	float rate = 4;          // pixels per segment; 0 = off
+	uint32_t max_split = 8;  // pieces per edge in one split
 	Raster raster = Raster::Auto;
 	CullOptions cull;
 	ViewMode view = ViewMode::Shaded;
 	float displacement_scale = 1;
-	bool smooth_normals = true; // false: faceted shading
+	bool smooth_normals = true;  // false: faceted shading
 	uint32_t width_px = 1920;
 	uint32_t height_px = 1080;
-	std::map<std::string, uint32_t> capacities; // by list name
+	std::map<std::string, uint32_t> capacities;  // by list name
 };
 
-} // namespace tessera
+}  // namespace tessera

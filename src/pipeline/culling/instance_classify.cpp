@@ -7,12 +7,9 @@ namespace tessera
 {
 
 static constexpr Use kUses[] = {
-	{ "view", Access::ComputeRead },
-	{ "instances", Access::ComputeRead },
-	{ "meshes", Access::ComputeRead },
-	{ "mesh_bounds", Access::ComputeRead, &kCulls },
-	{ "heads", Access::ComputeWrite },
-	{ "cluster_groups", Access::ComputeWrite },
+	{ "view", Access::ComputeRead },   { "instances", Access::ComputeRead },
+	{ "meshes", Access::ComputeRead }, { "mesh_bounds", Access::ComputeRead, &kCulls },
+	{ "heads", Access::ComputeWrite }, { "cluster_groups", Access::ComputeWrite },
 };
 
 static void record(PassContext& pass)

@@ -7,10 +7,11 @@ namespace tessera
 {
 
 static constexpr auto kUses = joinUses(surfaceUses(Access::MeshRead), partUses(Access::MeshRead),
-                                       std::array<Use, 7>{ {
+									   std::array<Use, 8>{ {
 										   { "heads", Access::MeshRead },
 										   { "heads", Access::Indirect },
 										   { "batches", Access::MeshRead },
+										   { "micro_vertices", Access::MeshRead },
 										   { "visible_clusters", Access::FragmentRead },
 										   { "part_triangles", Access::FragmentRead },
 										   { "visibility_depth", Access::Depth },
@@ -23,6 +24,7 @@ static void record(PassContext& pass)
 	args.inputs = rasterInputs(pass);
 	args.heads = pass.address("heads");
 	args.batches = pass.address("batches");
+	args.vertices = pass.address("micro_vertices");
 	pass.drawMeshTasks(args, "batches");
 }
 

@@ -6,10 +6,11 @@
 namespace tessera
 {
 
-static constexpr auto kUses = joinUses(surfaceUses(Access::MeshRead), std::array<Use, 6>{ {
+static constexpr auto kUses = joinUses(surfaceUses(Access::MeshRead), std::array<Use, 7>{ {
 																		  { "heads", Access::MeshRead },
 																		  { "heads", Access::Indirect },
 																		  { "full_clusters", Access::MeshRead },
+																		  { "micro_vertices", Access::MeshRead },
 																		  { "visible_clusters", Access::FragmentRead },
 																		  { "visibility_depth", Access::Depth },
 																		  { "visibility_payload", Access::Color },
@@ -21,6 +22,7 @@ static void record(PassContext& pass)
 	args.inputs = rasterInputs(pass, ReadsParts::No);
 	args.heads = pass.address("heads");
 	args.full_clusters = pass.address("full_clusters");
+	args.vertices = pass.address("micro_vertices");
 	pass.drawMeshTasks(args, "full_clusters");
 }
 

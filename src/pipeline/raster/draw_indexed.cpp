@@ -6,17 +6,11 @@
 namespace tessera
 {
 
-// Evaluation happened in expand_triangles; only telling sides apart needs more than vertices, indices and payloads.
+// Evaluation happened in evaluate_vertices; only telling sides apart needs more than vertices, indices and payloads.
 static constexpr Use kUses[] = {
-	{ "expanded_vertices", Access::VertexRead },
-	{ "expanded_triangles", Access::IndexRead },
-	{ "expanded_triangles", Access::FragmentRead },
-	{ "indexed_draw", Access::Indirect },
-	{ "visible_clusters", Access::FragmentRead },
-	{ "part_triangles", Access::FragmentRead, &kTessellates },
-	{ "clusters", Access::FragmentRead },
-	{ "material_flags", Access::FragmentRead },
-	{ "visibility_depth", Access::Depth },
+	{ "micro_vertices", Access::VertexRead }, { "expanded_triangles", Access::IndexRead },  { "expanded_triangles", Access::FragmentRead },
+	{ "indexed_draw", Access::Indirect },     { "visible_clusters", Access::FragmentRead }, { "part_triangles", Access::FragmentRead, &kTessellates },
+	{ "clusters", Access::FragmentRead },     { "material_flags", Access::FragmentRead },   { "visibility_depth", Access::Depth },
 	{ "visibility_payload", Access::Color },
 };
 
@@ -27,7 +21,7 @@ static void record(PassContext& pass)
 	args.inputs.visible_clusters = pass.address("visible_clusters");
 	args.inputs.part_triangles = pass.address("part_triangles");
 	args.inputs.material_flags = pass.address("material_flags");
-	args.vertices = pass.address("expanded_vertices");
+	args.vertices = pass.address("micro_vertices");
 	args.expanded_triangles = pass.address("expanded_triangles");
 	args.first_payload = 3 * pass.capacity("expanded_triangles");
 	pass.drawIndexed(args, "expanded_triangles", "indexed_draw");

@@ -7,7 +7,7 @@ namespace tessera
 {
 
 static constexpr auto kUses = joinUses(surfaceUses(Access::ComputeRead), partUses(Access::ComputeRead),
-                                       std::array<Use, 9>{ {
+									   std::array<Use, 9>{ {
 										   { "shading", Access::ComputeRead },
 										   { "materials", Access::ComputeRead },
 										   { "normals", Access::ComputeRead, &kNormals },
@@ -18,7 +18,7 @@ static constexpr auto kUses = joinUses(surfaceUses(Access::ComputeRead), partUse
 										   { "visibility_payload", Access::ComputeRead },
 										   { "counts", Access::ComputeWrite },
 									   } },
-                                       std::array<Use, 1>{ { { "picture", Access::ComputeWrite } } });
+									   std::array<Use, 1>{ { { "picture", Access::ComputeWrite } } });
 
 static void record(PassContext& pass)
 {

@@ -7,11 +7,8 @@ namespace tessera
 {
 
 static constexpr Use kUses[] = {
-	{ "part_triangles", Access::ComputeRead },
-	{ "patterns", Access::ComputeRead },
-	{ "heads", Access::ComputeWrite },
-	{ "counts", Access::ComputeWrite },
-	{ "batches", Access::ComputeWrite },
+	{ "part_triangles", Access::ComputeRead }, { "patterns", Access::ComputeRead }, { "heads", Access::ComputeWrite },
+	{ "counts", Access::ComputeWrite },        { "batches", Access::ComputeWrite },
 };
 
 static void record(PassContext& pass)

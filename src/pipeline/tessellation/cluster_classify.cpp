@@ -7,16 +7,11 @@ namespace tessera
 {
 
 static constexpr Use kUses[] = {
-	{ "visible_clusters", Access::ComputeRead },
-	{ "view", Access::ComputeRead },
-	{ "instances", Access::ComputeRead },
-	{ "clusters", Access::ComputeRead },
-	{ "positions", Access::ComputeRead },
-	{ "triangles", Access::ComputeRead },
-	{ "heads", Access::ComputeWrite },
-	{ "counts", Access::ComputeWrite },
-	{ "full_clusters", Access::ComputeWrite },
-	{ "split_triangles", Access::ComputeWrite, &kSplits },
+	{ "visible_clusters", Access::ComputeRead }, { "view", Access::ComputeRead },
+	{ "instances", Access::ComputeRead },        { "clusters", Access::ComputeRead },
+	{ "positions", Access::ComputeRead },        { "triangles", Access::ComputeRead },
+	{ "heads", Access::ComputeWrite },           { "counts", Access::ComputeWrite },
+	{ "full_clusters", Access::ComputeWrite },   { "split_triangles", Access::ComputeWrite, &kSplits },
 	{ "part_triangles", Access::ComputeWrite },
 };
 

@@ -7,18 +7,10 @@ namespace tessera
 {
 
 static constexpr Use kUses[] = {
-	{ "visible_clusters", Access::ComputeRead },
-	{ "view", Access::ComputeRead },
-	{ "instances", Access::ComputeRead },
-	{ "clusters", Access::ComputeRead },
-	{ "positions", Access::ComputeRead },
-	{ "triangles", Access::ComputeRead },
-	{ "patterns", Access::ComputeRead },
-	{ "table_vertices", Access::ComputeRead },
-	{ "table_triangles", Access::ComputeRead },
-	{ "heads", Access::ComputeWrite },
-	{ "counts", Access::ComputeWrite },
-	{ "split_triangles", Access::ComputeWrite },
+	{ "visible_clusters", Access::ComputeRead }, { "view", Access::ComputeRead },           { "instances", Access::ComputeRead },
+	{ "clusters", Access::ComputeRead },         { "positions", Access::ComputeRead },      { "triangles", Access::ComputeRead },
+	{ "patterns", Access::ComputeRead },         { "table_vertices", Access::ComputeRead }, { "table_triangles", Access::ComputeRead },
+	{ "heads", Access::ComputeWrite },           { "counts", Access::ComputeWrite },        { "split_triangles", Access::ComputeWrite },
 	{ "part_triangles", Access::ComputeWrite },
 };
 

@@ -1,4 +1,4 @@
-#include "raster/expand_triangles.h"
+#include "raster/evaluate_vertices.h"
 
 #include "pipeline/passes.h"
 #include "pipeline/uses.h"
@@ -7,31 +7,30 @@ namespace tessera
 {
 
 static constexpr auto kUses = joinUses(surfaceUses(Access::ComputeRead), partUses(Access::ComputeRead),
-                                       std::array<Use, 6>{ {
+									   std::array<Use, 6>{ {
 										   { "heads", Access::ComputeRead },
 										   { "counts", Access::ComputeWrite },
 										   { "full_clusters", Access::ComputeRead },
 										   { "batches", Access::ComputeRead, &kTessellates },
-										   { "expanded_vertices", Access::ComputeWrite },
-										   { "expanded_triangles", Access::ComputeWrite },
+										   { "micro_vertices", Access::ComputeWrite },
+										   { "expanded_triangles", Access::ComputeWrite, &kIndexed },
 									   } });
 
 static void record(PassContext& pass)
 {
-	ExpandTrianglesArgs args = {};
+	EvaluateVerticesArgs args = {};
 	args.inputs = rasterInputs(pass);
 	args.heads = pass.address("heads");
 	args.counts = pass.address("counts");
 	args.full_clusters = pass.address("full_clusters");
 	args.batches = pass.address("batches");
-	args.vertices = pass.address("expanded_vertices");
+	args.vertices = pass.address("micro_vertices");
 	args.indices = pass.address("expanded_triangles");
 	pass.dispatchLoop(args, uint64_t(pass.capacity("batches")) + pass.capacity("full_clusters"));
 }
 
-static constexpr const Condition* kNeeded[] = { &kIndexed, &kPrimitiveId };
-static constexpr std::string_view kShaders[] = { "raster/expand_triangles.comp" };
+static constexpr std::string_view kShaders[] = { "raster/evaluate_vertices.comp" };
 
-const PassDesc kExpandTriangles = { "expand_triangles", kUses, kNeeded, kShaders, nullptr, record };
+const PassDesc kEvaluateVertices = { "evaluate_vertices", kUses, {}, kShaders, nullptr, record };
 
 }  // namespace tessera

@@ -1,0 +1,23 @@
+// Arguments of evaluate_vertices.
+#ifndef TESSERA_RASTER_EVALUATE_VERTICES_H
+#define TESSERA_RASTER_EVALUATE_VERTICES_H
+#include "shared/lists.h"
+#include "shared/raster_inputs.h"
+
+SHARED_BEGIN
+
+struct EvaluateVerticesArgs
+{
+	RasterInputs inputs;
+	GPU_PTR(ListHead) heads;
+	GPU_PTR(FrameCounts) counts;
+	GPU_PTR(FullCluster) full_clusters;
+	GPU_PTR(Batch) batches;  // 0 when nothing is tessellated
+	GPU_PTR(vec4) vertices;  // clip coordinates
+	GPU_PTR(uint) indices;   // 0 unless drawn indexed
+};
+SHARED_LAYOUT(EvaluateVerticesArgs, 128, indices, 120)
+
+SHARED_END
+
+#endif
