@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <memory>
 
 namespace tessera
 {
@@ -24,6 +25,17 @@ constexpr CommandDesc kCommands[] = {
 	{ Command::Info, "info", "what the device offers, what SCENE needs, what is left out and why" },
 };
 
+constexpr const char* kSharedGroup = "shared";
+
+// Leaves the shared options to optionsHelp, so that every help page shows them alike.
+struct HelpFormatter final : CLI::Formatter
+{
+	std::string make_group(std::string group, bool is_positional, std::vector<const CLI::Option*> options) const override
+	{
+		return group == kSharedGroup ? "" : Formatter::make_group(std::move(group), is_positional, std::move(options));
+	}
+};
+
 std::string sceneHelp()
 {
 	std::string text = "SCENE is a .gltf or .glb file, or one of\n";
@@ -34,7 +46,8 @@ std::string sceneHelp()
 
 void addCommandOptions(CLI::App& app, CommandLine& line)
 {
-	app.add_option("SCENE", line.scene, line.command == Command::Render ? "default: the first built-in scene" : "");
+	const char* otherwise = line.command == Command::Info ? "default: none" : "default: the first built-in scene";
+	app.add_option("SCENE", line.scene, otherwise)->type_name("");
 	if (line.command != Command::Info)
 		app.add_option("-o,--output", line.output, line.command == Command::Render ? "picture (default tessera.png)" : "file to write")
 			->type_name("FILE");
@@ -60,7 +73,7 @@ void addSharedOptions(CLI::App& app, AppOptions& options, Status& status)
 				status = setOption(option, text, options);
 		};
 		if (option.value.empty())
-			app.add_flag_callback(name, [set] { set(""); })->group("");
+			app.add_flag_callback(name, [set] { set(""); })->group(kSharedGroup);
 		else
 			app.add_option(name,
 						   [set](const CLI::results_t& values) {
@@ -68,8 +81,9 @@ void addSharedOptions(CLI::App& app, AppOptions& options, Status& status)
 							   return true;
 						   })
 				->expected(1)
+				->type_name(std::string(option.value))
 				->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-				->group("");
+				->group(kSharedGroup);
 	}
 }
 
@@ -79,7 +93,7 @@ std::string mainHelp()
 					   "Usage: tessera COMMAND [SCENE] [OPTIONS]\n\nCommands (tessera COMMAND --help says more)\n";
 	for (const CommandDesc& command : kCommands)
 		text += fmt::format("  {:<28}  {}\n", command.name, command.help);
-	text += fmt::format("  {:<28}  {}\n  {:<28}  {}\n", "--version", "", "--help", "");
+	text += "  --version\n  --help\n";
 	return text + "\n" + sceneHelp() + "\nOptions of every command\n" + optionsHelp();
 }
 
@@ -89,10 +103,11 @@ Result<CommandLine> parseCommand(const CommandDesc& command, std::vector<std::st
 	line.command = command.command;
 	Status status;
 	CLI::App app{ std::string(command.help), "tessera " + std::string(command.name) };
-	app.get_formatter()->column_width(30);
+	app.formatter(std::make_shared<HelpFormatter>());
+	app.get_formatter()->column_width(32);
 	addCommandOptions(app, line);
 	addSharedOptions(app, line.options, status);
-	app.footer("\n" + sceneHelp() + "\nOptions of every command\n" + optionsHelp());
+	app.footer(sceneHelp() + "\nOptions of every command\n" + optionsHelp());
 	try
 	{
 		std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them last first

@@ -14,22 +14,21 @@ using nlohmann::ordered_json;
 namespace
 {
 
-// What is known of a scene; the plan only when it was asked for.
+// A scene, and what planning its frame needs beside it.
 struct SceneInfo
 {
 	BuiltScene scene;
-	std::optional<ScenePlan> planned;
+	TessellationTable table;
+	Camera camera;
+	std::optional<ScenePlan> planned;  // only when it was asked for
 };
 
-Result<SceneInfo> inspectScene(const CommandLine& line, const Device& device)
+Result<SceneInfo> inspectScene(const CommandLine& line)
 {
 	SceneInfo info;
+	TRY_ASSIGN(info.table, loadChosenTable(line.options));
 	TRY_ASSIGN(info.scene, loadScene(line.scene, line.options));
-	if (!line.print_plan)
-		return info;
-	TRY_ASSIGN(const TessellationTable table, loadChosenTable(line.options));
-	TRY_ASSIGN(const Camera camera, chooseCamera(info.scene, line.options));
-	TRY_ASSIGN(info.planned, planScene(info.scene, camera, line.options, traitsOf(device), table));
+	TRY_ASSIGN(info.camera, chooseCamera(info.scene, line.options));
 	return info;
 }
 
@@ -89,11 +88,15 @@ Status printJson(const CommandLine& line, const Device& device, const std::optio
 
 Status infoCommand(const CommandLine& line)
 {
-	TRY_ASSIGN(const std::unique_ptr<Device> device, Device::create({ line.options.device, line.options.validate }));
 	std::optional<SceneInfo> info;
 	if (!line.scene.empty() || line.print_plan)
 	{
-		TRY_ASSIGN(info, inspectScene(line, *device));
+		TRY_ASSIGN(info, inspectScene(line));
+	}
+	TRY_ASSIGN(const std::unique_ptr<Device> device, Device::create({ line.options.device, line.options.validate }));
+	if (line.print_plan)
+	{
+		TRY_ASSIGN(info->planned, planScene(info->scene, info->camera, line.options, traitsOf(*device), info->table));
 	}
 	if (line.json)
 		return printJson(line, *device, info);

@@ -77,6 +77,11 @@ std::string printVector(const dvec3& vector)
 	return fmt::format("{},{},{}", vector.x, vector.y, vector.z);
 }
 
+std::string counted(uint64_t count, std::string_view noun)
+{
+	return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 double shortest(float value)
 {
 	return readNumber(fmt::format("{}", value)).value_or(double(value));

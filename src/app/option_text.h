@@ -32,9 +32,15 @@ std::string joinNames(const Names& names)
 {
 	std::string text;
 	for (const auto& name : names)
-		text += (text.empty() ? "" : ", ") + std::string(name);
+	{
+		text += text.empty() ? "" : ", ";
+		text += name;
+	}
 	return text;
 }
+
+// "1 cluster", "2 clusters".
+std::string counted(uint64_t count, std::string_view noun);
 
 // As short as it can be while reading back as the same float.
 double shortest(float value);

@@ -17,6 +17,7 @@ namespace
 constexpr uint32_t kMostExtent = 65536;  // of a picture; the device may take less
 constexpr uint32_t kMostCopies = 4096;   // of the scene, per direction
 constexpr double kMostLength = 1e30;     // world units
+constexpr double kMostShown = 1e9;       // ranges that end higher are left out of --help
 
 constexpr std::string_view kRasterNames[] = { "auto", "mesh", "indexed" };
 constexpr std::string_view kMetricNames[] = { "edge" };
@@ -264,7 +265,7 @@ std::string remarks(const OptionDesc& option)
 	std::vector<std::string> parts;
 	if (const Choice* choice = std::get_if<Choice>(&option.field); choice && choice->names.size() > 1)
 		parts.push_back(joinNames(choice->names));
-	if (option.most > option.least && option.most < kMostLength)
+	if (option.most > option.least && option.most < kMostShown)
 		parts.push_back(fmt::format("{} to {}", option.least, option.most));
 	const std::vector<std::string> values = printOption(option, {});
 	if (values.size() == 1 && !values[0].empty())
@@ -272,6 +273,21 @@ std::string remarks(const OptionDesc& option)
 	if (option.repeatable)
 		parts.emplace_back("repeatable");
 	return parts.empty() ? "" : fmt::format(" ({})", fmt::join(parts, "; "));
+}
+
+// Cuts at blanks into lines of at most `width`; at least one line.
+std::vector<std::string> wrap(std::string_view text, size_t width)
+{
+	std::vector<std::string> lines = { "" };
+	for (std::string_view word : splitAt(text, ' '))
+	{
+		if (!lines.back().empty() && lines.back().size() + 1 + word.size() > width)
+			lines.emplace_back();
+		else if (!lines.back().empty())
+			lines.back() += ' ';
+		lines.back() += word;
+	}
+	return lines;
 }
 
 }  // namespace
@@ -355,12 +371,16 @@ ordered_json optionsJson(const AppOptions& options)
 
 std::string optionsHelp()
 {
+	constexpr size_t kColumn = 32, kWidth = 88;  // where the help starts, and its width
 	std::string text;
 	for (const OptionDesc& option : kTable)
 	{
-		const std::string head = fmt::format("--{} {}", option.name, option.value);
-		const std::string_view gap = head.size() > 28 ? "\n                                " : "  ";
-		text += fmt::format("  {:<28}{}{}{}\n", head, gap, option.help, remarks(option));
+		const std::string head = fmt::format("  --{} {}", option.name, option.value);
+		const std::vector<std::string> lines = wrap(fmt::format("{}{}", option.help, remarks(option)), kWidth);
+		text += head.size() + 2 > kColumn ? fmt::format("{}\n{:<{}}{}\n", head, "", kColumn, lines[0])
+										  : fmt::format("{:<{}}{}\n", head, kColumn, lines[0]);
+		for (size_t i = 1; i < lines.size(); ++i)
+			text += fmt::format("{:<{}}{}\n", "", kColumn, lines[i]);
 	}
 	return text;
 }

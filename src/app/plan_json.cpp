@@ -1,5 +1,7 @@
 #include "app/plan_json.h"
 
+#include "app/option_text.h"
+
 #include <algorithm>
 #include <vector>
 
@@ -43,8 +45,8 @@ std::string keptText(const FramePlan& plan)
 {
 	std::string text = "passes, in order\n";
 	for (const KeptPass& pass : keptPasses(plan))
-		text += fmt::format("  {:<22} {}{} barrier{} before\n", pass.name, pass.repeats > 1 ? fmt::format("{} times, ", pass.repeats) : "",
-							pass.barriers ? std::to_string(pass.barriers) : "no", pass.barriers == 1 ? "" : "s");
+		text += fmt::format("  {:<22} {}{} before\n", pass.name, pass.repeats > 1 ? fmt::format("{} times, ", pass.repeats) : "",
+							counted(pass.barriers, "barrier"));
 	return text;
 }
 
@@ -101,8 +103,8 @@ std::string planText(const ScenePlan& planned)
 	const FramePlan& plan = planned.plan;
 	std::string text = keptText(plan) + leftOutText(plan);
 	text += "resources\n" + resourcesText(plan, true) + "resources left out\n" + resourcesText(plan, false);
-	text += fmt::format("in all: {} steps, {} barriers, {} held; left out: {} passes, {}\n", plan.steps.size(), planned.barriers(),
-						bytesText(planned.bytesKept()), plan.dropped.size(), bytesText(planned.bytesSaved()));
+	text += fmt::format("in all: {}, {}, {} held; left out: {} passes, {}\n", counted(plan.steps.size(), "step"),
+						counted(planned.barriers(), "barrier"), bytesText(planned.bytesKept()), plan.dropped.size(), bytesText(planned.bytesSaved()));
 	return text;
 }
 

@@ -1,4 +1,5 @@
 #include "app/commands.h"
+#include "app/option_text.h"
 #include "app/scene_load.h"
 #include "app/stats_json.h"
 #include "base/log.h"
@@ -55,9 +56,9 @@ Result<FrameSeries> drawFrames(Renderer& renderer, const Camera& camera, const A
 		series.add(result);
 	}
 	const FrameResult& last = series.last;
-	logInfo("drew {} frame{}: {} micro-triangles of {} part triangles and {} full clusters, {:.3f} ms on the device", options.frames,
-			options.frames == 1 ? "" : "s", last.counts.micro_triangles, last.counts.part_triangles, last.counts.full_clusters,
-			series.frame.median());
+	logInfo("drew {}: {} of {} and {}, {:.3f} ms on the device", counted(options.frames, "frame"),
+			counted(last.counts.micro_triangles, "micro-triangle"), counted(last.counts.part_triangles, "part triangle"),
+			counted(last.counts.full_clusters, "full cluster"), series.frame.median());
 	if (last.rounds > 1)
 		logInfo("the frame was drawn in {} rounds: clusters exceed a list ({})", last.rounds, tightLists(last));
 	if (isCoarsened(last) && options.strict)
@@ -67,22 +68,36 @@ Result<FrameSeries> drawFrames(Renderer& renderer, const Camera& camera, const A
 	return series;
 }
 
+// What is drawn, found before the device is needed.
+struct Subject
+{
+	TessellationTable table;
+	BuiltScene scene;
+	Camera camera;
+};
+
+Result<Subject> loadSubject(const CommandLine& line)
+{
+	Subject subject;
+	TRY_ASSIGN(subject.table, loadChosenTable(line.options));
+	TRY_ASSIGN(subject.scene, loadScene(line.scene, line.options));
+	TRY_ASSIGN(subject.camera, chooseCamera(subject.scene, line.options));
+	return subject;
+}
+
 // Everything that needs the renderer, so that it is gone, and validated, when this returns.
-Status drawAndWrite(const CommandLine& line, const std::string& picture_path, Device& device)
+Status drawAndWrite(const CommandLine& line, const std::string& picture_path, const Subject& subject, Device& device)
 {
 	const AppOptions& options = line.options;
-	TRY_ASSIGN(const TessellationTable table, loadChosenTable(options));
-	TRY_ASSIGN(const BuiltScene scene, loadScene(line.scene, options));
-	TRY_ASSIGN(const Camera camera, chooseCamera(scene, options));
-	TRY_ASSIGN(const std::unique_ptr<Renderer> renderer, Renderer::create(device, scene, table, framePasses(), options));
+	TRY_ASSIGN(const std::unique_ptr<Renderer> renderer, Renderer::create(device, subject.scene, subject.table, framePasses(), options));
 	logInfo("drawing {}x{} at {} pixels per segment", options.width_px, options.height_px, options.rate);
-	TRY_ASSIGN(const FrameSeries series, drawFrames(*renderer, camera, options));
+	TRY_ASSIGN(const FrameSeries series, drawFrames(*renderer, subject.camera, options));
 	TRY_ASSIGN(const std::vector<uint8_t> picture, renderer->readPicture());
 	TRY(writePng(picture_path, options.width_px, options.height_px, picture, 4));
 	logInfo("wrote {}", picture_path);
 	if (line.stats.empty())
 		return {};
-	const RunFacts facts = { device, scene, options, camera, renderer->plan(), renderer->planInput(), series, renderer->memory() };
+	const RunFacts facts = { device, subject.scene, options, subject.camera, renderer->plan(), renderer->planInput(), series, renderer->memory() };
 	TRY(writeJson(line.stats, statsJson(facts)));
 	if (line.stats != "-")
 		logInfo("wrote {}", line.stats);
@@ -94,11 +109,12 @@ Status drawAndWrite(const CommandLine& line, const std::string& picture_path, De
 Status renderCommand(const CommandLine& line)
 {
 	TRY_ASSIGN(const std::string picture_path, picturePath(line));
+	TRY_ASSIGN(const Subject subject, loadSubject(line));
 	TRY_ASSIGN(const std::unique_ptr<Device> device, Device::create({ line.options.device, line.options.validate }));
-	logInfo("device {} ({})", device->name, device->driver);
-	TRY(drawAndWrite(line, picture_path, *device));
+	logInfo("device {}, driver {}", device->name, device->driver);
+	TRY(drawAndWrite(line, picture_path, subject, *device));
 	if (const uint32_t count = device->validationMessages())
-		return fail(ExitCode::CheckFailed, "--validate: the validation layer had {} message{}", count, count == 1 ? "" : "s");
+		return fail(ExitCode::CheckFailed, "--validate: the validation layer had {}", counted(count, "message"));
 	return {};
 }
 

@@ -86,7 +86,7 @@ Result<Camera> baseCamera(const BuiltScene& scene, const AppOptions& options)
 	}
 	const size_t index = options.camera.value_or(0);
 	if (index >= count)
-		return fail(ExitCode::Usage, "--camera {}: {} has {} camera{}{}", index, scene.path, count, count == 1 ? "" : "s",
+		return fail(ExitCode::Usage, "--camera {}: {} has {}{}", index, scene.path, counted(count, "camera"),
 					count ? fmt::format(", 0 to {}", count - 1) : "; leave --camera out to frame the scene");
 	return cameraOf(scene.cameras[index], scene);
 }
@@ -111,8 +111,8 @@ Result<BuiltScene> loadScene(const std::string& scene, const AppOptions& options
 	TRY_ASSIGN(BuiltScene built, buildScene(imported, { options.cluster_vertices, options.cluster_triangles }));
 	for (const std::string& warning : built.warnings)
 		logWarning("{}", warning);
-	logInfo("built {} triangles in {} clusters; {} instances of {} triangles in all", built.traits.base_triangles, built.clusters.size(),
-			built.instances.size(), built.traits.instanced_triangles);
+	logInfo("built {} in {}; {} of {} in all", counted(built.traits.base_triangles, "triangle"), counted(built.clusters.size(), "cluster"),
+			counted(built.instances.size(), "instance"), counted(built.traits.instanced_triangles, "triangle"));
 	return built;
 }
 

@@ -5,6 +5,7 @@
 #include "plan/conditions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace tessera
@@ -17,7 +18,10 @@ namespace
 
 ordered_json timesJson(const TimeSeries& series)
 {
-	return { { "median", series.median() }, { "min", series.least() }, { "max", series.most() } };
+	const auto toNanoseconds = [](double ms) {
+		return std::round(ms * 1e6) / 1e6;
+	};
+	return { { "median", toNanoseconds(series.median()) }, { "min", toNanoseconds(series.least()) }, { "max", toNanoseconds(series.most()) } };
 }
 
 ordered_json frameJson(const RunFacts& facts)
