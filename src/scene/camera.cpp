@@ -42,8 +42,14 @@ double farDistance(const Camera& camera, const BuiltScene& scene)
 	return glm::length(reach);
 }
 
-vec3 highPart(dvec3 value) { return vec3(value); }
-vec3 lowPart(dvec3 value) { return vec3(value - dvec3(vec3(value))); }
+vec3 highPart(dvec3 value)
+{
+	return vec3(value);
+}
+vec3 lowPart(dvec3 value)
+{
+	return vec3(value - dvec3(vec3(value)));
+}
 
 void setProjection(View& view, const Camera& camera, const BuiltScene& scene, const ViewRequest& request, double unit)
 {
@@ -102,8 +108,20 @@ Camera framingCamera(const BuiltScene& scene)
 {
 	Camera camera;
 	camera.target = (scene.world_low + scene.world_high) / 2.0;
-	const double distance = boundingRadius(scene) / std::sin(camera.fov_y_rad / 2) * 1.02;
-	camera.eye = camera.target + glm::normalize(dvec3(0.55, 0.4, 1.0)) * distance;
+	const dvec3 backward = glm::normalize(dvec3(0.55, 0.4, 1.0));
+	const dvec3 right = glm::normalize(glm::cross(camera.up, backward));
+	const dvec3 up = glm::cross(backward, right);
+	// The nearest eye that sees every corner of the bounds within a square view, with a margin.
+	const double slope = std::tan(camera.fov_y_rad / 2) * 0.93;
+	const dvec3 half = (scene.world_high - scene.world_low) / 2.0;
+	double distance = boundingRadius(scene) * 1e-3;
+	for (int corner = 0; corner < 8; ++corner)
+	{
+		const dvec3 p = half * dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+		const double across = std::max(std::abs(glm::dot(p, right)), std::abs(glm::dot(p, up)));
+		distance = std::max(distance, across / slope + glm::dot(p, backward));
+	}
+	camera.eye = camera.target + backward * distance;
 	return camera;
 }
 
@@ -164,9 +182,8 @@ InstanceRecord instanceRecord(const Instance& instance)
 	record.translation_high = highPart(translation);
 	record.translation_low = lowPart(translation);
 	// World units per mesh unit, squared: the mean over the axes.
-	const double scale_squared = (glm::dot(dvec3(world[0]), dvec3(world[0])) + glm::dot(dvec3(world[1]), dvec3(world[1])) +
-	                              glm::dot(dvec3(world[2]), dvec3(world[2]))) /
-	                             3;
+	const double scale_squared =
+		(glm::dot(dvec3(world[0]), dvec3(world[0])) + glm::dot(dvec3(world[1]), dvec3(world[1])) + glm::dot(dvec3(world[2]), dvec3(world[2]))) / 3;
 	record.inverse_scale_squared = scale_squared > 1e-60 ? static_cast<float>(std::min(1 / scale_squared, 1e30)) : 0;
 	record.mesh = instance.mesh;
 	record.mirrored = glm::determinant(dmat3(world)) < 0 ? 1 : 0;

@@ -12,9 +12,9 @@ struct Camera
 {
 	dvec3 eye = { 0, 0, 3 };  // world units
 	dvec3 target = { 0, 0, 0 };
-	dvec3 up = { 0, 1, 0 };   // any length, not along the view
+	dvec3 up = { 0, 1, 0 };  // any length, not along the view
 	double fov_y_rad = 1.0471975512;
-	double near_world = 0;    // 0: bounding radius / 1000, at least 1e-6
+	double near_world = 0;  // 0: bounding radius / 1000, at least 1e-6
 	bool orthographic = false;
 	double height_world = 2;  // orthographic: height of the view
 
@@ -25,7 +25,7 @@ struct Camera
 struct ViewRequest
 {
 	uint32_t width_px = 1920, height_px = 1080;
-	double rate_px = 4;          // granted rate, pixels per segment; 0: every factor is 1
+	double rate_px = 4;             // granted rate, pixels per segment; 0: every factor is 1
 	bool every_factor_one = false;  // the coarsest a frame can be (C2)
 	float displacement_scale = 1;
 };

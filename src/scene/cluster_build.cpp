@@ -185,7 +185,7 @@ private:
 			scene_.first_seam_edges.push_back(seam_flags ? uint32_t(scene_.seam_edges.size()) : 0);
 			for (uint32_t i = 0; i < 3; ++i)
 				if (seam_flags & (1u << i))
-					scene_.seam_edges.push_back(seamEdge(3 * triangle + i, mesh_.weld, mesh_.corners, mesh_.vertices));
+					scene_.seam_edges.push_back(seamEdge(3 * triangle + i, mesh_.seams, mesh_.weld, mesh_.corners, mesh_.vertices));
 		}
 		scene_.triangles.push_back(packBaseTriangle(corners[0], corners[1], corners[2], edge_flags, seam_flags));
 		scene_.source_triangles.push_back(triangle);

@@ -29,10 +29,10 @@ enum class Wrap : uint8_t
 // A decoded image: rows top to bottom, channels interleaved.
 struct Image
 {
-	std::string name;      // file, or place in the file, for messages
-	uint32_t width = 0;    // 1..16384
-	uint32_t height = 0;   // 1..16384
-	uint32_t channels = 0; // 1..4
+	std::string name;       // file, or place in the file, for messages
+	uint32_t width = 0;     // 1..16384
+	uint32_t height = 0;    // 1..16384
+	uint32_t channels = 0;  // 1..4
 	TexelFormat format = TexelFormat::U8;
 	std::vector<std::byte> texels;  // width * height * channels * size of the format
 };
@@ -65,7 +65,7 @@ struct Displacement
 struct Material
 {
 	std::string name;
-	vec4 base_color = { 1, 1, 1, 1 };  // linear
+	vec4 base_color = { 1, 1, 1, 1 };              // linear
 	std::optional<TextureUse> base_color_texture;  // sRGB
 	float metallic = 1;
 	float roughness = 1;
@@ -101,7 +101,7 @@ struct Instance
 struct FileCamera
 {
 	std::string name;
-	dmat4 world = dmat4(1);        // looks along its -z
+	dmat4 world = dmat4(1);  // looks along its -z
 	bool orthographic = false;
 	double fov_y_rad = 1.0471975512;  // perspective: vertical field of view
 	double height_world = 2;          // orthographic: height of the view

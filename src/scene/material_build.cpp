@@ -69,7 +69,8 @@ private:
 		const auto [entry, is_new] = displaces_.try_emplace(index, false);
 		const Displacement& displacement = *imported_.materials[index].displacement;
 		if (is_new)
-			entry->second = !displacesByNothing(imported_.images[imported_.textures[displacement.height.texture].image], displacement.factor, displacement.offset);
+			entry->second = !displacesByNothing(imported_.images[imported_.textures[displacement.height.texture].image], displacement.factor,
+												displacement.offset);
 		return entry->second;
 	}
 

@@ -12,8 +12,8 @@ namespace tessera
 // A height map ready for evaluation: mips box-filtered, texels packed as shared/geometry.h says.
 struct HeightMapData
 {
-	HeightMap record;             // texels = 0 here: the address is filled in by whoever holds the texels
-	std::vector<uint32_t> texels; // all levels, packed words
+	HeightMap record;              // texels = 0 here: the address is filled in by whoever holds the texels
+	std::vector<uint32_t> texels;  // all levels, packed words
 	std::string name;
 };
 
@@ -43,21 +43,21 @@ struct ColorTexture
 // Counts and facts of the derivation: what `info`, the plan (C5) and the warnings tell.
 struct SceneTraits
 {
-	uint64_t base_triangles = 0;         // over all meshes, once each
-	uint64_t instanced_triangles = 0;    // over all instances
-	uint32_t degenerate_triangles = 0;   // zero-area base triangles, kept
-	uint32_t seam_edges = 0;             // triangle edges whose heights another triangle owns
+	uint64_t base_triangles = 0;        // over all meshes, once each
+	uint64_t instanced_triangles = 0;   // over all instances
+	uint32_t degenerate_triangles = 0;  // zero-area base triangles, kept
+	uint32_t seam_edges = 0;            // triangle edges whose heights another triangle owns
 	uint32_t seam_corners = 0;
-	uint32_t zero_directions = 0;        // welded vertices without a displacement direction
-	uint32_t nonmanifold_edges = 0;      // welded edges with more than two triangles
+	uint32_t zero_directions = 0;    // welded vertices without a displacement direction
+	uint32_t nonmanifold_edges = 0;  // welded edges with more than two triangles
 	uint32_t boundary_edges = 0;
-	bool has_displacement = false;       // some material displaces by something other than 0
+	bool has_displacement = false;  // some material displaces by something other than 0
 	bool has_color_textures = false;
 	bool has_vertex_colors = false;
 	bool has_single_sided = false;
 	bool has_double_sided = false;
 	bool has_mirrored_instances = false;
-	bool directions_are_normals = false; // every displacement direction equals the authored normal bit for bit
+	bool directions_are_normals = false;  // every displacement direction equals the authored normal bit for bit
 };
 
 // Arrays that the scene does not need are empty (C5): directions, uvs, densities without displacement, color_uvs without
@@ -72,11 +72,11 @@ struct BuiltScene
 	std::vector<vec2> uvs;         // for the height map
 	std::vector<float> densities;  // height texels per mesh unit
 	std::vector<vec2> color_uvs;
-	std::vector<uint32_t> colors;  // RGBA8, linear
-	std::vector<uint32_t> weld_ids; // welded vertex; unique over the whole scene. Host only: verification and tests
+	std::vector<uint32_t> colors;    // RGBA8, linear
+	std::vector<uint32_t> weld_ids;  // welded vertex; unique over the whole scene. Host only: verification and tests
 	std::vector<uint32_t> seam_corner_indices;
 	// per triangle
-	std::vector<uint32_t> triangles;         // packBaseTriangle
+	std::vector<uint32_t> triangles;  // packBaseTriangle
 	std::vector<uint32_t> first_seam_edges;
 	std::vector<uint32_t> source_triangles;  // index of the triangle in its mesh's input order. Host only
 	// seams

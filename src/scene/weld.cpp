@@ -1,40 +1,16 @@
 #include "scene/weld.h"
 
+#include "scene/disjoint_sets.h"
 #include "scene/flat_table.h"
 
 #include <algorithm>
 #include <cstring>
-#include <numeric>
 
 namespace tessera
 {
 
 namespace
 {
-
-// Disjoint sets of corners; a set's root is its lowest corner.
-class CornerSets
-{
-public:
-	explicit CornerSets(size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0u); }
-
-	uint32_t root(uint32_t corner)
-	{
-		while (parents_[corner] != corner)
-			corner = parents_[corner] = parents_[parents_[corner]];
-		return corner;
-	}
-
-	void unite(uint32_t a, uint32_t b)
-	{
-		a = root(a);
-		b = root(b);
-		parents_[std::max(a, b)] = std::min(a, b);
-	}
-
-private:
-	std::vector<uint32_t> parents_;
-};
 
 uint64_t hashPosition(vec3 p)
 {
@@ -60,7 +36,7 @@ std::vector<uint32_t> identifyPositions(const MeshCorners& corners)
 }
 
 // Finds the edges with equal ends, and unites the corners at both.
-void joinEdges(const std::vector<uint32_t>& positions, CornerSets& sets, MeshWeld& weld)
+void joinEdges(const std::vector<uint32_t>& positions, DisjointSets& sets, MeshWeld& weld)
 {
 	const uint32_t count = uint32_t(positions.size());
 	const auto key = [&](uint32_t edge) {
@@ -106,7 +82,7 @@ MeshWeld weldMesh(const MeshCorners& corners)
 {
 	MeshWeld weld;
 	const uint32_t count = uint32_t(corners.positions.size());
-	CornerSets sets(count);
+	DisjointSets sets(count);
 	joinEdges(identifyPositions(corners), sets, weld);
 
 	// Number the sets in order of their first corner, which is their root.
