@@ -116,14 +116,18 @@ std::vector<std::string> printCull(const AppOptions& options)
 Status parseCapacity(AppOptions& options, std::string_view text)
 {
 	const size_t equals = text.find('=');
-	const std::string_view name = text.substr(0, equals);
-	std::vector<std::string_view> names;
-	for (const ListDesc& list : listDescs())
-		names.push_back(list.name);
-	const std::optional<uint32_t> count = equals == std::string_view::npos ? std::nullopt : readCount(text.substr(equals + 1), 1, 1u << 28);
-	if (!count || !findList(name))
-		return fail(ExitCode::Usage, "NAME=COUNT is right, COUNT from 1 to {}, NAME one of {}", 1u << 28, joinNames(names));
-	options.capacities[std::string(name)] = *count;
+	const ListDesc* list = findList(text.substr(0, equals));
+	if (equals == std::string_view::npos || !list)
+	{
+		std::vector<std::string_view> names;
+		for (const ListDesc& desc : listDescs())
+			names.push_back(desc.name);
+		return fail(ExitCode::Usage, "NAME=COUNT is right, NAME one of {}", joinNames(names));
+	}
+	const std::optional<uint32_t> count = readCount(text.substr(equals + 1), list->least_capacity, mostEntries(*list));
+	if (!count)
+		return fail(ExitCode::Usage, "{} can hold from {} to {} entries", list->name, list->least_capacity, mostEntries(*list));
+	options.capacities[std::string(list->name)] = *count;
 	return {};
 }
 

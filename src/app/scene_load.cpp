@@ -27,19 +27,33 @@ bool isBuiltin(std::string_view scene)
 	return scene.empty() || scene.starts_with("builtin:");
 }
 
-// Size of the undisplaced scene in the world, 0 along axes where it is flat.
-dvec3 worldSize(const ImportedScene& scene)
+// Farthest that a material moves a vertex, in mesh units; heights of float images are taken for 0..1 too.
+double displacementReach(const Material& material)
+{
+	if (!material.displacement)
+		return 0;
+	const double offset = double(material.displacement->offset);
+	return std::max(std::abs(offset), std::abs(offset + double(material.displacement->factor)));
+}
+
+// Size of the scene in the world, displaced as far as it can be.
+dvec3 worldSize(const ImportedScene& scene, double displacement_scale)
 {
 	constexpr double kInfinity = std::numeric_limits<double>::infinity();
 	dvec3 low(kInfinity), high(-kInfinity);
 	for (const Instance& instance : scene.instances)
 		for (const Primitive& primitive : scene.meshes[instance.mesh].primitives)
+		{
+			const dmat3 axes = dmat3(instance.world);
+			const double scale = std::max({ glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]) });
+			const double reach = displacementReach(scene.materials[primitive.material]) * std::abs(displacement_scale) * scale;
 			for (const vec3& position : primitive.positions)
 			{
 				const dvec3 world = dvec3(instance.world * dvec4(dvec3(position), 1));
-				low = glm::min(low, world);
-				high = glm::max(high, world);
+				low = glm::min(low, world - reach);
+				high = glm::max(high, world + reach);
 			}
+		}
 	return glm::max(high - low, dvec3(0));
 }
 
@@ -52,7 +66,7 @@ Status copyOverGrid(ImportedScene& scene, const AppOptions& options)
 		return fail(ExitCode::Usage, "--grid {}x{}: {} has {} instances, copies would be {}; at most {} can be drawn", options.grid_columns,
 					options.grid_rows, scene.path, scene.instances.size(), copies * scene.instances.size(), kMostInstances);
 	const bool needs_size = !options.grid_u || !options.grid_v;
-	const dvec3 size = needs_size ? worldSize(scene) * kGridGap : dvec3(0);
+	const dvec3 size = needs_size ? worldSize(scene, double(options.displacement_scale)) * kGridGap : dvec3(0);
 	const dvec3 u = options.grid_u.value_or(dvec3(size.x, 0, 0)), v = options.grid_v.value_or(dvec3(0, 0, -size.z));
 	std::vector<Instance> instances;
 	instances.reserve(copies * scene.instances.size());
@@ -64,13 +78,18 @@ Status copyOverGrid(ImportedScene& scene, const AppOptions& options)
 	return {};
 }
 
-// Moves the eye along its line so that the whole scene fits into a picture of this shape.
-void frame(Camera& camera, const BuiltScene& scene, const AppOptions& options)
+// A camera that shows the whole scene in a picture of this shape.
+Camera frameScene(const BuiltScene& scene, const AppOptions& options)
 {
-	const double aspect = double(options.width_px) / options.height_px;
-	const double half = std::min(camera.fov_y_rad / 2, std::atan(std::tan(camera.fov_y_rad / 2) * aspect));
-	const dvec3 direction = glm::normalize(camera.eye - camera.target);
-	camera.eye = camera.target + direction * (boundingRadius(scene) / std::sin(half) * 1.02);
+	Camera camera = framingCamera(scene);  // for a square view
+	const double square_slope = std::tan(camera.fov_y_rad / 2);
+	camera.fov_y_rad = options.fov_deg ? *options.fov_deg * kDegree : camera.fov_y_rad;
+	const double slope = std::tan(camera.fov_y_rad / 2) * std::min(1.0, double(options.width_px) / options.height_px);
+	// A narrower view is moved back in proportion; a wider one comes nearer, as far as the bounding sphere allows.
+	const dvec3 backward = camera.eye - camera.target;
+	const double distance = glm::length(backward), sphere_distance = boundingRadius(scene) / std::sin(std::atan(slope));
+	camera.eye = camera.target + backward / distance * (slope < square_slope ? distance * square_slope / slope : std::min(distance, sphere_distance));
+	return camera;
 }
 
 Result<Camera> baseCamera(const BuiltScene& scene, const AppOptions& options)
@@ -78,12 +97,7 @@ Result<Camera> baseCamera(const BuiltScene& scene, const AppOptions& options)
 	const size_t count = scene.cameras.size();
 	const bool own = isBuiltin(scene.path) && count > 0 && options.grid_columns * options.grid_rows == 1;
 	if (!options.camera && !own)
-	{
-		Camera camera = framingCamera(scene);
-		camera.fov_y_rad = options.fov_deg ? *options.fov_deg * kDegree : camera.fov_y_rad;
-		frame(camera, scene, options);
-		return camera;
-	}
+		return frameScene(scene, options);
 	const size_t index = options.camera.value_or(0);
 	if (index >= count)
 		return fail(ExitCode::Usage, "--camera {}: {} has {}{}", index, scene.path, counted(count, "camera"),

@@ -1,0 +1,17 @@
+# Options, planning, the rate controller, and the program as a user runs it.
+set(here ${CMAKE_CURRENT_LIST_DIR})
+add_executable(app_test ${here}/options_test.cpp ${here}/plan_test.cpp ${here}/rate_controller_test.cpp ${here}/scene_load_test.cpp)
+target_link_libraries(app_test PRIVATE tessera_app GTest::gtest_main)
+gtest_discover_tests(app_test PROPERTIES LABELS cpu)
+
+foreach(name IN ITEMS cli_test cli_render_test)
+  add_executable(${name} ${here}/program_run.cpp)
+  target_link_libraries(${name} PRIVATE tessera_app GTest::gtest_main)
+  target_include_directories(${name} PRIVATE ${here}/..)
+  target_compile_definitions(${name} PRIVATE TESSERA_PROGRAM="$<TARGET_FILE:tessera>")
+  add_dependencies(${name} tessera tessera_shaders)
+endforeach()
+target_sources(cli_test PRIVATE ${here}/cli_test.cpp)
+target_sources(cli_render_test PRIVATE ${here}/../gpu/cli_render_test.cpp)
+gtest_discover_tests(cli_test PROPERTIES LABELS cpu)
+gtest_discover_tests(cli_render_test PROPERTIES LABELS gpu)

@@ -1,0 +1,378 @@
+// planFrame over the passes there are: what is kept, what is left out and why, and that every access is ordered.
+#include "frame/frame_resources.h"
+#include "pipeline/passes.h"
+#include "plan/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace tessera::test
+{
+
+namespace
+{
+
+constexpr std::string_view kWanted[] = { "picture", "counts", "heads" };
+
+// A scene that needs everything, on a device that can do everything.
+PlanInput fullInput()
+{
+	PlanInput input;
+	input.device = { true, true, false };
+	SceneTraits& traits = input.scene;
+	traits.has_displacement = traits.has_color_textures = traits.has_vertex_colors = true;
+	traits.has_single_sided = traits.has_double_sided = traits.has_mirrored_instances = true;
+	traits.seam_edges = 10;
+	traits.seam_corners = 5;
+	input.sizes = { 1000, 2000, 40, 2, 3, 2, 60, 4096, 4096, 10, 5, 1 };
+	input.view.factors_above_one = true;
+	input.view.split_levels = 3;
+	return input;
+}
+
+FramePlan planOf(const PlanInput& input)
+{
+	Result<FramePlan> plan = planFrame(framePasses(), resourceDescs(), kWanted, input);
+	EXPECT_TRUE(plan) << (plan ? "" : plan.error().message);
+	return plan ? std::move(*plan) : FramePlan();
+}
+
+bool featureOn(const FramePlan& plan, std::string_view name)
+{
+	const auto found = std::find_if(plan.features.begin(), plan.features.end(), [&](const Feature& feature) { return feature.name == name; });
+	EXPECT_NE(found, plan.features.end()) << name;
+	return found != plan.features.end() && found->on;
+}
+
+const PlannedResource& resourceOf(const FramePlan& plan, std::string_view name)
+{
+	static const PlannedResource kNone;
+	const auto found = std::find_if(plan.resources.begin(), plan.resources.end(), [&](const PlannedResource& r) { return r.name == name; });
+	EXPECT_NE(found, plan.resources.end()) << name;
+	return found == plan.resources.end() ? kNone : *found;
+}
+
+void expectLeftOut(const FramePlan& plan, std::initializer_list<std::string_view> resources)
+{
+	for (std::string_view name : resources)
+	{
+		EXPECT_FALSE(plan.keeps(name)) << name;
+		EXPECT_FALSE(resourceOf(plan, name).reason.empty()) << name;
+	}
+}
+
+void expectKept(const FramePlan& plan, std::initializer_list<std::string_view> resources)
+{
+	for (std::string_view name : resources)
+		EXPECT_TRUE(plan.keeps(name)) << name << ": " << resourceOf(plan, name).reason;
+}
+
+void expectDropped(const FramePlan& plan, std::initializer_list<std::string_view> passes)
+{
+	for (std::string_view name : passes)
+	{
+		EXPECT_FALSE(plan.has(name)) << name;
+		EXPECT_FALSE(plan.reason(name).empty()) << name;
+	}
+}
+
+bool holds(const Use& use, const PlanInput& input)
+{
+	return !use.when || use.when->holds(input);
+}
+
+// A barrier after step `from` and no later than before step `to` that orders the first access before the second.
+bool ordered(const FramePlan& plan, size_t from, Access first, size_t to, Access second)
+{
+	for (size_t i = from + 1; i <= to; ++i)
+		if (plan.steps[i].wait_for.has(first) && plan.steps[i].then.has(second))
+			return true;
+	return false;
+}
+
+// The rule itself, spelled out: whenever two steps touch a resource and one of them writes, a barrier lies between, back to the
+// last write. Appends count as reads too.
+bool everyConflictIsOrdered(const FramePlan& plan, const PlanInput& input)
+{
+	for (size_t later = 0; later < plan.steps.size(); ++later)
+		for (const Use& use : plan.steps[later].pass->uses)
+		{
+			bool met_writer = !holds(use, input);
+			for (size_t earlier = later; earlier-- > 0 && !met_writer;)
+				for (const Use& before : plan.steps[earlier].pass->uses)
+				{
+					if (before.resource != use.resource || !holds(before, input) || (!writes(before.access) && !writes(use.access)))
+						continue;
+					if (!ordered(plan, earlier, before.access, later, use.access))
+						return false;
+					met_writer |= writes(before.access);
+				}
+		}
+	return true;
+}
+
+// Lists and images start a frame empty: who reads one must come after who writes it.
+std::string readBeforeWritten(const FramePlan& plan, const PlanInput& input)
+{
+	std::vector<std::string_view> written;
+	for (const PlanStep& step : plan.steps)
+	{
+		for (const Use& use : step.pass->uses)
+		{
+			const std::string_view kind = resourceOf(plan, use.resource).kind;
+			const bool made_by_passes = kind == "list" || kind == "image";
+			if (made_by_passes && holds(use, input) && !writes(use.access) &&
+				std::find(written.begin(), written.end(), use.resource) == written.end())
+				return fmt::format("{} reads {}", step.pass->name, use.resource);
+		}
+		for (const Use& use : step.pass->uses)
+			if (holds(use, input) && writes(use.access))
+				written.push_back(use.resource);
+	}
+	return "";
+}
+
+// Calls `visit` with every combination of what plans depend on.
+void forEveryInput(const std::function<void(const PlanInput&)>& visit)
+{
+	for (uint32_t bits = 0; bits < 1u << 13; ++bits)
+	{
+		const auto bit = [&](uint32_t i) {
+			return (bits >> i & 1u) != 0;
+		};
+		PlanInput input = fullInput();
+		input.device.mesh_shader = bit(0);
+		input.device.fragment_primitive_id = bit(1);
+		input.options.raster = bit(2) ? Raster::Indexed : bit(3) ? Raster::Mesh : Raster::Auto;
+		input.scene.has_displacement = bit(4);
+		input.scene.seam_edges = input.scene.seam_corners = bit(5) ? 3 : 0;
+		input.options.rate = bit(6) ? 4.0f : 0.0f;
+		input.view.factors_above_one = bit(7);
+		input.view.split_levels = bit(8) ? 2 : 0;
+		input.options.cull = { bit(9), bit(9) };
+		input.scene.has_color_textures = bit(10);
+		input.options.smooth_normals = bit(11);
+		input.scene.directions_are_normals = bit(12);
+		input.scene.has_vertex_colors = bit(3);
+		input.options.view = bit(2) ? ViewMode::Shaded : ViewMode::Depth;
+		visit(input);
+	}
+}
+
+}  // namespace
+
+TEST(framePlan, aSceneThatNeedsEverythingGetsIt)
+{
+	const PlanInput input = fullInput();
+	const FramePlan plan = planOf(input);
+	for (const char* pass : { "frame_begin", "instance_classify", "cluster_cull", "cluster_classify", "triangle_split", "batch_parts",
+							  "draw_clusters", "draw_batches", "shade" })
+		EXPECT_TRUE(plan.has(pass)) << pass;
+	expectKept(plan, { "height_texels", "uvs", "seam_edges", "color_textures", "colors", "part_triangles", "patterns" });
+	for (const Feature& feature : plan.features)
+		if (feature.on == (feature.name == "EXPANDS_TRIANGLES"))
+			ADD_FAILURE() << feature.name << " " << feature.reason;
+}
+
+TEST(framePlan, withoutDisplacementNothingOfItIsHeld)
+{
+	PlanInput input = fullInput();
+	input.scene.has_displacement = false;
+	const FramePlan plan = planOf(input);
+	expectLeftOut(plan, { "height_texels", "height_maps", "material_height_maps", "uvs", "densities", "directions", "seam_edges", "seam_corners",
+						  "first_seam_edges", "seam_corner_indices" });
+	EXPECT_FALSE(featureOn(plan, "HAS_DISPLACEMENT"));
+	EXPECT_FALSE(featureOn(plan, "HAS_SEAMS"));
+}
+
+TEST(framePlan, aDisplacementScaleOfZeroIsAsGoodAsNone)
+{
+	PlanInput input = fullInput();
+	input.options.displacement_scale = 0;
+	EXPECT_FALSE(planOf(input).keeps("height_texels"));
+}
+
+TEST(framePlan, withoutSeamsNothingOfThemIsHeld)
+{
+	PlanInput input = fullInput();
+	input.scene.seam_edges = input.scene.seam_corners = 0;
+	const FramePlan plan = planOf(input);
+	expectLeftOut(plan, { "seam_edges", "seam_corners", "first_seam_edges", "seam_corner_indices" });
+	expectKept(plan, { "height_texels", "uvs" });
+	EXPECT_FALSE(featureOn(plan, "HAS_SEAMS"));
+	EXPECT_TRUE(featureOn(plan, "HAS_DISPLACEMENT"));
+}
+
+TEST(framePlan, directionsThatAreTheNormalsAreNotHeldTwice)
+{
+	PlanInput input = fullInput();
+	input.scene.directions_are_normals = true;
+	const FramePlan plan = planOf(input);
+	expectLeftOut(plan, { "directions" });
+	expectKept(plan, { "normals" });
+}
+
+TEST(framePlan, withoutTessellationThereIsNoTableAndNoPart)
+{
+	for (const bool rate_is_off : { true, false })
+	{
+		PlanInput input = fullInput();
+		if (rate_is_off)
+			input.options.rate = 0;
+		else
+			input.view.factors_above_one = false;
+		const FramePlan plan = planOf(input);
+		expectDropped(plan, { "cluster_classify", "triangle_split", "batch_parts", "draw_batches" });
+		expectLeftOut(plan, { "patterns", "table_vertices", "table_triangles", "part_triangles", "split_triangles", "batches" });
+		EXPECT_TRUE(plan.has("draw_clusters"));
+		EXPECT_EQ(featureOn(plan, "HAS_TESSELLATION"), !rate_is_off) << "what depends on the view must not recompile";
+	}
+}
+
+TEST(framePlan, splittingIsPlannedOnlyWhereItCanOccur)
+{
+	PlanInput input = fullInput();
+	input.view.split_levels = 0;
+	const FramePlan none = planOf(input);
+	expectDropped(none, { "triangle_split" });
+	expectLeftOut(none, { "split_triangles" });
+	input.view.split_levels = 5;
+	const FramePlan five = planOf(input);
+	EXPECT_EQ(std::count_if(five.steps.begin(), five.steps.end(), [](const PlanStep& step) { return step.pass->name == "triangle_split"; }), 5);
+}
+
+TEST(framePlan, withoutCullingNoBoundsAreHeld)
+{
+	PlanInput input = fullInput();
+	input.options.cull = { false, false };
+	const FramePlan plan = planOf(input);
+	expectLeftOut(plan, { "cluster_bounds", "mesh_bounds" });
+	EXPECT_FALSE(featureOn(plan, "HAS_CULLING"));
+}
+
+TEST(framePlan, withoutTexturesAndColorsTheirCodeIsCompiledOut)
+{
+	PlanInput input = fullInput();
+	input.scene.has_color_textures = input.scene.has_vertex_colors = false;
+	const FramePlan plan = planOf(input);
+	expectLeftOut(plan, { "color_textures", "color_uvs", "colors" });
+	EXPECT_FALSE(featureOn(plan, "HAS_COLOR_TEXTURES"));
+	EXPECT_FALSE(featureOn(plan, "HAS_VERTEX_COLORS"));
+}
+
+TEST(framePlan, withoutMeshShadersTrianglesAreDrawnIndexed)
+{
+	PlanInput input = fullInput();
+	input.device.mesh_shader = false;
+	const FramePlan plan = planOf(input);
+	EXPECT_TRUE(plan.has("draw_indexed"));
+	expectDropped(plan, { "draw_clusters", "draw_batches" });
+	EXPECT_NE(plan.reason("draw_batches").find("VK_EXT_mesh_shader"), std::string::npos);
+	expectKept(plan, { "micro_vertices", "expanded_triangles", "indexed_draw" });
+	EXPECT_TRUE(featureOn(plan, "EXPANDS_TRIANGLES"));
+}
+
+TEST(framePlan, withMeshShadersNoTriangleIsExpanded)
+{
+	const FramePlan plan = planOf(fullInput());
+	expectDropped(plan, { "draw_indexed" });
+	expectLeftOut(plan, { "expanded_triangles", "indexed_draw" });
+	expectKept(plan, { "micro_vertices" });
+}
+
+TEST(framePlan, indexedDrawingCanBeAskedForWhereMeshShadersAre)
+{
+	PlanInput input = fullInput();
+	input.options.raster = Raster::Indexed;
+	const FramePlan plan = planOf(input);
+	EXPECT_TRUE(plan.has("draw_indexed"));
+	expectDropped(plan, { "draw_clusters", "draw_batches" });
+}
+
+TEST(framePlan, onlyTheFirstDrawClearsDepth)
+{
+	const FramePlan plan = planOf(fullInput());
+	EXPECT_EQ(std::count_if(plan.steps.begin(), plan.steps.end(), [](const PlanStep& step) { return step.clears_depth; }), 1);
+	const auto first = std::find_if(plan.steps.begin(), plan.steps.end(), [](const PlanStep& step) { return step.clears_depth; });
+	ASSERT_NE(first, plan.steps.end());
+	EXPECT_EQ(first->pass->name, "draw_clusters");
+}
+
+TEST(framePlan, everyAccessIsOrderedWhateverIsAsked)
+{
+	uint32_t planned = 0;
+	forEveryInput([&](const PlanInput& input) {
+		const Result<FramePlan> plan = planFrame(framePasses(), resourceDescs(), kWanted, input);
+		const bool can_mesh = input.device.mesh_shader && input.options.raster != Raster::Indexed;
+		const bool can_index = input.device.fragment_primitive_id &&
+							   (input.options.raster == Raster::Indexed || (input.options.raster == Raster::Auto && !input.device.mesh_shader));
+		if (!plan || (!can_mesh && !can_index))
+		{
+			EXPECT_FALSE(can_mesh || can_index) << plan.error().message;
+			return;
+		}
+		++planned;
+		ASSERT_TRUE(plan->everyReadHasAnEarlierWriteAndABarrier(input));
+		ASSERT_TRUE(everyConflictIsOrdered(*plan, input));
+		ASSERT_EQ(readBeforeWritten(*plan, input), "");
+		for (const PassDesc* pass : framePasses())
+			ASSERT_EQ(plan->has(pass->name), plan->reason(pass->name).empty()) << pass->name;
+		for (const PlannedResource& resource : plan->resources)
+			ASSERT_EQ(resource.kept, resource.reason.empty()) << resource.name;
+	});
+	EXPECT_GT(planned, 3000u);
+}
+
+TEST(framePlan, everyResourceThatPassesNameIsKnown)
+{
+	for (const PassDesc* pass : framePasses())
+		for (const Use& use : pass->uses)
+			EXPECT_TRUE(std::any_of(resourceDescs().begin(), resourceDescs().end(), [&](const ResourceDesc& r) { return r.name == use.resource; }))
+				<< pass->name << ": " << use.resource;
+}
+
+TEST(framePlan, aBarrierTooFewIsNoticed)
+{
+	const PlanInput input = fullInput();
+	const FramePlan plan = planOf(input);
+	for (size_t i = 0; i < plan.steps.size(); ++i)
+	{
+		if (plan.steps[i].wait_for.empty())
+			continue;
+		FramePlan broken = plan;
+		broken.steps[i].wait_for = broken.steps[i].then = {};
+		EXPECT_FALSE(everyConflictIsOrdered(broken, input)) << plan.steps[i].pass->name << ": its barrier is not needed";
+	}
+	FramePlan broken = plan;
+	for (PlanStep& step : broken.steps)
+		step.wait_for = step.then = {};
+	EXPECT_FALSE(broken.everyReadHasAnEarlierWriteAndABarrier(input));
+}
+
+TEST(framePlan, aReaderBeforeItsWriterIsNoticed)
+{
+	const PlanInput input = fullInput();
+	FramePlan plan = planOf(input);
+	std::reverse(plan.steps.begin(), plan.steps.end());
+	EXPECT_FALSE(plan.everyReadHasAnEarlierWriteAndABarrier(input));
+	EXPECT_NE(readBeforeWritten(plan, input), "");
+}
+
+TEST(framePlan, aMissingWriterIsNoticed)
+{
+	const PlanInput input = fullInput();
+	for (const std::string_view missing : { "instance_classify", "cluster_cull", "cluster_classify", "batch_parts", "shade" })
+	{
+		std::vector<const PassDesc*> passes(framePasses().begin(), framePasses().end());
+		std::erase_if(passes, [&](const PassDesc* pass) { return pass->name == missing; });
+		const Result<FramePlan> plan = planFrame(passes, resourceDescs(), kWanted, input);
+		if (plan)
+			EXPECT_NE(readBeforeWritten(*plan, input), "") << missing;
+		else
+			EXPECT_EQ(plan.error().code, ExitCode::DeviceCannot) << missing;
+	}
+}
+
+}  // namespace tessera::test

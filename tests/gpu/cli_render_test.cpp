@@ -1,0 +1,133 @@
+// The program with a device: pictures, stats, plans, and the exit codes that only drawing leads to.
+#include "cpu/program_run.h"
+#include "frame/lists.h"
+#include "pipeline/passes.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace tessera::test
+{
+
+namespace
+{
+
+using nlohmann::json;
+
+class programWithDevice : public testing::Test
+{
+protected:
+	void SetUp() override
+	{
+		const ProgramRun run = runTessera("info");
+		if (run.exit_code == 4)
+			GTEST_SKIP() << run.errors;
+	}
+};
+
+json statsOf(const std::string& arguments)
+{
+	const ProgramRun run = runTessera("render " + arguments + " --stats - --quiet");
+	EXPECT_EQ(run.exit_code, 0) << run.errors;
+	return json::parse(run.output, nullptr, false);
+}
+
+}  // namespace
+
+TEST_F(programWithDevice, statsHaveEveryPromisedKey)
+{
+	const json stats = statsOf("builtin:quad --size 160x120 --rate 8 --frames 3 --warmup 1");
+	ASSERT_TRUE(stats.is_object());
+	EXPECT_EQ(stats["schema"], 1);
+	for (const char* key : { "name", "driver", "api", "gates" })
+		EXPECT_TRUE(stats["device"].contains(key)) << key;
+	EXPECT_TRUE(stats["device"]["gates"]["mesh_shader"].is_boolean());
+	EXPECT_EQ(stats["scene"]["path"], "builtin:quad");
+	EXPECT_EQ(stats["scene"]["base_triangles"], 2);
+	EXPECT_EQ(stats["scene"]["instances"], 1);
+	EXPECT_EQ(stats["scene"]["clusters"], 1);
+	EXPECT_EQ(stats["options"]["rate"], 8.0);
+	EXPECT_EQ(stats["options"]["size"], json({ 160, 120 }));
+	const json& frame = stats["frame"];
+	EXPECT_EQ(frame["frames"], 3);
+	EXPECT_LE(frame["gpu_ms"]["min"], frame["gpu_ms"]["median"]);
+	EXPECT_LE(frame["gpu_ms"]["median"], frame["gpu_ms"]["max"]);
+	EXPECT_EQ(frame["rate_wanted"], 8.0);
+	EXPECT_EQ(frame["rate_granted"], 8.0);
+	for (const char* key : { "full_clusters", "part_triangles", "split_triangles", "micro_triangles", "covered_pixels" })
+		EXPECT_TRUE(frame[key].is_number_unsigned()) << key;
+	EXPECT_GT(frame["covered_pixels"], 0u);
+	const json& memory = stats["memory"];
+	EXPECT_EQ(memory["total"].get<uint64_t>(), memory["lists"].get<uint64_t>() + memory["geometry"].get<uint64_t>() +
+												   memory["textures"].get<uint64_t>() + memory["images"].get<uint64_t>());
+}
+
+TEST_F(programWithDevice, everyPassHasATimeOrAReason)
+{
+	const json stats = statsOf("builtin:quad --size 64x64");
+	EXPECT_EQ(stats["passes"].size(), framePasses().size());
+	for (const auto& [name, pass] : stats["passes"].items())
+		EXPECT_TRUE((pass.contains("gpu_ms") && pass["gpu_ms"].contains("median")) || !pass.value("dropped", "").empty()) << name;
+	for (const char* list : { "visible_clusters", "full_clusters", "part_triangles" })
+		for (const char* key : { "wanted", "capacity", "peak", "peak_used", "bytes" })
+			EXPECT_TRUE(stats["lists"][list].contains(key)) << list << " " << key;
+}
+
+TEST_F(programWithDevice, aListThatIsTooSmallCoarsensAndStrictRefusesThat)
+{
+	const std::string tight = "builtin:quad --size 96x64 --rate 0.5 --capacity part_triangles=20";
+	const json stats = statsOf(tight);
+	EXPECT_GT(stats["frame"]["rate_granted"], stats["frame"]["rate_wanted"]);
+	EXPECT_LE(stats["lists"]["part_triangles"]["wanted"], 20u);
+	const ProgramRun warned = runTessera("render " + tight + " --quiet");
+	EXPECT_EQ(warned.exit_code, 0);
+	EXPECT_NE(warned.errors.find("warning: the rate was coarsened"), std::string::npos) << warned.errors;
+	EXPECT_NE(warned.errors.find("part_triangles"), std::string::npos) << warned.errors;
+	const ProgramRun strict = runTessera("render " + tight + " --strict -o strict.png --stats strict.json");
+	EXPECT_EQ(strict.exit_code, 5);
+	EXPECT_FALSE(std::filesystem::exists(scratchFolder() / "strict.png"));
+	EXPECT_FALSE(std::filesystem::exists(scratchFolder() / "strict.json"));
+}
+
+TEST_F(programWithDevice, everyViewIsDrawn)
+{
+	for (const char* view :
+		 { "shaded", "clusters", "parts", "triangles", "factors", "depth", "normals", "wireframe", "facets", "height", "instances", "materials" })
+	{
+		const std::string picture = fmt::format("{}.png", view);
+		EXPECT_EQ(runTessera(fmt::format("render builtin:quad --size 64x64 --view {} -o {}", view, picture)).exit_code, 0);
+		EXPECT_TRUE(std::filesystem::exists(scratchFolder() / picture)) << view;
+	}
+}
+
+TEST_F(programWithDevice, theValidationLayerHasNothingToSay)
+{
+	const ProgramRun run = runTessera("render builtin:bricks --size 96x64 --rate 2 --validate --quiet");
+	if (run.exit_code == 4)
+		GTEST_SKIP() << run.errors;
+	EXPECT_EQ(run.exit_code, 0) << run.errors;
+}
+
+TEST_F(programWithDevice, infoPrintsDeviceSceneAndPlan)
+{
+	const ProgramRun run = runTessera("info builtin:quad --print-plan --json");
+	ASSERT_EQ(run.exit_code, 0) << run.errors;
+	const json info = json::parse(run.output, nullptr, false);
+	ASSERT_TRUE(info.is_object());
+	EXPECT_GT(info["plan"]["passes"].size(), 3u);
+	EXPECT_GT(info["plan"]["bytes_saved"], 0u);
+	EXPECT_EQ(info["plan"]["passes"].size() + info["plan"]["dropped"].size(), framePasses().size());
+	const ProgramRun text = runTessera("info builtin:quad --print-plan");
+	EXPECT_NE(text.output.find("mesh_shader"), std::string::npos);
+	EXPECT_NE(text.output.find("passes left out"), std::string::npos);
+	EXPECT_NE(text.output.find("shade"), std::string::npos);
+}
+
+TEST_F(programWithDevice, anUnknownDeviceEndsWithFour)
+{
+	const ProgramRun run = runTessera("render builtin:quad --device no-such-device --quiet");
+	EXPECT_EQ(run.exit_code, 4);
+	EXPECT_NE(run.errors.find("--device no-such-device"), std::string::npos);
+}
+
+}  // namespace tessera::test
