@@ -1,7 +1,6 @@
-# glTF and image files. tinygltf, stb and tinyexr are used through their headers; only tinyexr and Draco are linked.
+# glTF and image files. tinygltf and stb are used through their headers; only Draco is linked.
 find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
 find_path(STB_INCLUDE_DIR stb_image.h PATH_SUFFIXES stb REQUIRED)
-find_package(tinyexr CONFIG REQUIRED)
 find_package(draco CONFIG REQUIRED)
 target_sources(tessera_scene PRIVATE
   displacement_option.cpp
@@ -21,8 +20,9 @@ target_sources(tessera_scene PRIVATE
   gltf_warnings.cpp
   image_decode.cpp
   image_exr.cpp
+  image_stb.cpp
   material_variants.cpp)
 target_include_directories(tessera_scene SYSTEM PRIVATE ${TINYGLTF_INCLUDE_DIR} ${STB_INCLUDE_DIR})
-target_link_libraries(tessera_scene PRIVATE nlohmann_json::nlohmann_json tinyexr::tinyexr draco::draco)
+target_link_libraries(tessera_scene PRIVATE nlohmann_json::nlohmann_json draco::draco)
 # tinygltf only parses descriptions here: no files, no images.
 target_compile_definitions(tessera_scene PRIVATE TINYGLTF_NO_FS TINYGLTF_NO_EXTERNAL_IMAGE TINYGLTF_NO_STB_IMAGE TINYGLTF_NO_STB_IMAGE_WRITE)

@@ -78,6 +78,24 @@ TEST(imageDecode, floatImagesKeepTheirValues)
 	EXPECT_EQ(texelsAs<float>(*color)[4 * 1000 + 2], 0.25f);
 }
 
+TEST(imageDecode, compressedExrGivesItsValuesAndOtherCompressionsAreRefusedByName)
+{
+	for (const char* name : { "height_rle.exr", "height_zips.exr" })
+	{
+		const Result<Image> image = decoded(name);
+		ASSERT_TRUE(image) << image.error().message;
+		ASSERT_EQ(image->width, 20u);
+		ASSERT_EQ(image->height, 18u);
+		const std::vector<float> values = texelsAs<float>(*image);
+		for (size_t y = 0; y < 18; ++y)
+			for (size_t x = 0; x < 20; ++x)
+				EXPECT_EQ(values[20 * y + x], static_cast<float>(y) * 0.5f + (x == 7 ? 1.25f : 0.0f)) << name << " " << x << " " << y;
+	}
+	const Result<Image> image = decoded("height_piz.exr");
+	ASSERT_FALSE(image);
+	EXPECT_NE(image.error().message.find("PIZ compression is not supported; none, RLE, ZIPS or ZIP is right"), std::string::npos);
+}
+
 TEST(imageDecode, samplesThatAreNotFiniteBecomeZeroAndAreCounted)
 {
 	std::vector<std::string> warnings;
@@ -128,7 +146,8 @@ TEST(imageDecode, imagesAbove16384AreRefused)
 // Broken images must never crash; a prefix may still decode where the format allows it (JPEG).
 TEST(imageDecode, everyTruncatedPrefixAndEveryFlippedByteIsDecodedOrRefused)
 {
-	for (const char* name : { "color.png", "color_alpha.png", "height16.png", "color.jpg", "height_float.exr", "height_half.exr" })
+	for (const char* name :
+		 { "color.png", "color_alpha.png", "height16.png", "color.jpg", "height_float.exr", "height_half.exr", "height_rle.exr", "height_zips.exr" })
 	{
 		const std::vector<std::byte> bytes = readBytes(dataFile(name));
 		std::vector<std::string> warnings;
