@@ -32,7 +32,7 @@ TEST(program, wrongUsageEndsWithTwo)
 	expectRefused("draw", 2, "render, export, info");
 	expectRefused("render --rate fast", 2, "--rate fast");
 	expectRefused("render --bogus", 2, "--bogus");
-	expectRefused("render --raster soft", 2, "auto, mesh, indexed");
+	expectRefused("render --raster voxels", 2, "mesh, indexed");
 	expectRefused("render -o picture.jpg", 2, "picture.jpg");
 	expectRefused("render builtin:quad --camera 9", 2, "--camera 9");
 	expectRefused("render --capacity part_triangles=0", 2, "part_triangles can hold from 1");

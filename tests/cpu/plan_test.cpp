@@ -16,11 +16,12 @@ namespace
 
 constexpr std::string_view kWanted[] = { "picture", "counts", "heads" };
 
-// A scene that needs everything, on a device that can do everything.
+// A scene that needs everything, drawn by mesh shaders.
 PlanInput fullInput()
 {
 	PlanInput input;
-	input.device = { true, true, false };
+	input.device.mesh_shader = input.device.fragment_primitive_id = true;
+	input.options.raster = Raster::Mesh;
 	SceneTraits& traits = input.scene;
 	traits.has_displacement = traits.has_color_textures = traits.has_vertex_colors = true;
 	traits.has_single_sided = traits.has_double_sided = traits.has_mirrored_instances = true;
@@ -171,9 +172,11 @@ TEST(framePlan, aSceneThatNeedsEverythingGetsIt)
 							  "draw_clusters", "draw_batches", "shade" })
 		EXPECT_TRUE(plan.has(pass)) << pass;
 	expectKept(plan, { "height_texels", "uvs", "seam_edges", "color_textures", "colors", "part_triangles", "patterns" });
+	for (const char* feature : { "HAS_DISPLACEMENT", "HAS_SEAMS", "HAS_TESSELLATION", "HAS_COLOR_TEXTURES", "HAS_VERTEX_COLORS", "HAS_SMOOTH_NORMALS",
+								 "HAS_CULLING", "HAS_MIXED_SIDES", "HAS_MIRRORED_INSTANCES", "HAS_SINGLE_SIDED", "IS_SHADED_VIEW" })
+		EXPECT_TRUE(featureOn(plan, feature)) << feature;
 	for (const Feature& feature : plan.features)
-		if (feature.on == (feature.name == "EXPANDS_TRIANGLES"))
-			ADD_FAILURE() << feature.name << " " << feature.reason;
+		EXPECT_EQ(feature.on, feature.reason.empty()) << feature.name;
 }
 
 TEST(framePlan, withoutDisplacementNothingOfItIsHeld)
@@ -266,6 +269,7 @@ TEST(framePlan, withoutMeshShadersTrianglesAreDrawnIndexed)
 {
 	PlanInput input = fullInput();
 	input.device.mesh_shader = false;
+	input.options.raster = Raster::Auto;
 	const FramePlan plan = planOf(input);
 	EXPECT_TRUE(plan.has("draw_indexed"));
 	expectDropped(plan, { "draw_clusters", "draw_batches" });
