@@ -41,8 +41,8 @@ Decision decide(const Corner& p, const Corner& q, const Corner& r, const View& v
 class Classifier
 {
 public:
-	Classifier(const HostScene& scene, const View& view, FactorRule rule, Classified& result)
-		: scene_(scene), view_(view), rule_(rule), result_(result)
+	Classifier(const HostScene& scene, const View& view, FactorRule rule, uint32_t max_levels, Classified& result)
+		: scene_(scene), view_(view), rule_(rule), max_levels_(max_levels), result_(result)
 	{}
 
 	void addCluster(ClusterRef ref, uint32_t visible_cluster)
@@ -91,12 +91,14 @@ private:
 		if (result_.split_counts.size() <= level)
 			result_.split_counts.resize(level + 1);
 		++result_.split_counts[level];
-		cut(piece, level);
+		if (level < max_levels_)
+			cut(piece, level);
+		else
+			++result_.uncut_triangles;
 	}
 
 	void cut(const DomainPiece& piece, uint32_t level)
 	{
-		CHECK(level < 64, "splitting does not end: {}", describe(ReferencePiece{ ref_, piece }));
 		const PatternRange pattern = scene_.pattern(piece);
 		Corner corners[kMaxPatternVertices];
 		const Surface& surface = scene_.surface();
@@ -116,6 +118,7 @@ private:
 	const HostScene& scene_;
 	const View& view_;
 	FactorRule rule_;
+	uint32_t max_levels_;
 	Classified& result_;
 	ClusterRef ref_ = {};
 	ClusterRecord cluster_ = {};
@@ -150,6 +153,7 @@ Classified joined(const std::vector<Classified>& chunks)
 		result.split_counts.resize(std::max(result.split_counts.size(), chunk.split_counts.size()));
 		for (size_t level = 0; level < chunk.split_counts.size(); ++level)
 			result.split_counts[level] += chunk.split_counts[level];
+		result.uncut_triangles += chunk.uncut_triangles;
 		result.part_micro_triangles += chunk.part_micro_triangles;
 		result.full_cluster_triangles += chunk.full_cluster_triangles;
 	}
@@ -158,14 +162,14 @@ Classified joined(const std::vector<Classified>& chunks)
 
 }  // namespace
 
-Classified classify(const HostScene& scene, const View& view, FactorRule rule, std::span<const ClusterRef> visible)
+Classified classify(const HostScene& scene, const View& view, FactorRule rule, std::span<const ClusterRef> visible, uint32_t max_levels)
 {
-	CHECK(rule.table_size <= scene.tableSize() && rule.max_split >= 2 && rule.max_split <= rule.table_size, "table size {} of {}, max split {}",
-		  rule.table_size, scene.tableSize(), rule.max_split);
+	CHECK(rule.table_size >= 1 && rule.table_size <= scene.tableSize() && rule.max_split >= 2 && rule.max_split <= scene.tableSize(),
+		  "table size {} of {}, max split {}", rule.table_size, scene.tableSize(), rule.max_split);
 	constexpr size_t kChunk = 32;
 	std::vector<Classified> chunks((visible.size() + kChunk - 1) / kChunk);
 	parallelFor(chunks.size(), [&](size_t chunk) {
-		Classifier classifier(scene, view, rule, chunks[chunk]);
+		Classifier classifier(scene, view, rule, max_levels, chunks[chunk]);
 		for (size_t i = chunk * kChunk; i < std::min(visible.size(), (chunk + 1) * kChunk); ++i)
 			classifier.addCluster(visible[i], static_cast<uint32_t>(i));
 	});

@@ -55,12 +55,6 @@ private:
 	TableView table_ = {};
 };
 
-// The limits of the stages: the scene's table, and pieces per edge of one split (2..table size).
-inline FactorRule factorRule(const HostScene& scene, uint32_t max_split)
-{
-	return { scene.tableSize(), max_split };
-}
-
 // Every cluster of every instance, by instance, then cluster: what a frame without culling takes.
 std::vector<ClusterRef> allClusters(const HostScene& scene);
 

@@ -144,6 +144,41 @@ TEST(cover, edgesStopAtAnEighthOfTheirDomainLength)
 	print("limit", result, report);
 }
 
+// Two needles side by side, `width` wide, with the eye close to a point of them.
+static ImportedScene needleScene(double width, double tip)
+{
+	const vec3 a(0), b(1, 0, 0), c(float(tip), float(width), 0);
+	return triangleScene({ a, b, c, c, a, vec3(float(tip - 1), float(0.7 * width), float(width)) });
+}
+
+TEST(cover, splittingEndsOnNeedlesAtCoarseRates)
+{
+	uint64_t endless = 0;
+	for (uint32_t i = 0; i < 120; ++i)
+	{
+		const double x = i % 11 / 10.0, y = i % 7 / 6.0, z = i % 13 / 12.0;
+		const ReferenceScene scene(needleScene(std::pow(10, -1 - 6 * x), 1.4 * y - 0.2));
+		const double height = std::pow(10, -0.5 - 2.0 * z);
+		const dvec3 near_point = dvec3(i % 5 / 4.0, 0, 0);
+		Camera camera = cameraAt(near_point + dvec3(0, height * (x - 0.5), height), near_point + dvec3(0.1, 0.3, -0.1));
+		camera.near_world = height / 2;
+		const View view = viewOf(scene, camera, request(1000, 150 + 100 * y));
+		const auto visible = reference::allClusters(scene.host);
+		endless += classify(scene.host, view, { 11, 8 }, visible, 16).uncut_triangles > 0;
+		for (const uint32_t max_split : { 2u, 8u })
+		{
+			const Classified result = classifyAll(scene, view, max_split);
+			ASSERT_EQ(result.uncut_triangles, 0u);
+			EXPECT_LE(result.levels(), 16u);
+			const CoverReport report = coverOf(scene, result);
+			EXPECT_TRUE(report.holds()) << report.first_problem;
+		}
+	}
+	// With the whole table some never end: what factorRule is there for.
+	EXPECT_GT(endless, 0u);
+	fmt::print("with the whole table {} of 120 needles are cut for ever\n", endless);
+}
+
 TEST(cover, holdsForEveryTestSceneNearAndFar)
 {
 	for (const NamedScene& named : allScenes())
@@ -238,18 +273,16 @@ TEST(watertight, wholeClustersAndPartsAgreeAtTheCornersTheyShare)
 TEST(doubleSurface, floatPositionsStayWithinTheStatedBoundInEveryTestScene)
 {
 	for (const MipLog log : { MipLog::PiecewiseLinear, MipLog::True })
-	{
-		Errors errors;
 		for (const NamedScene& named : allScenes())
 		{
 			SCOPED_TRACE(named.name);
+			Errors errors;
 			const ReferenceScene scene(named.scene);
 			for (const Camera& camera : { framingCamera(scene.built), closeUp(scene, 0.05) })
 				compareWithDouble(scene, viewOf(scene, camera, request(300, 5)), log, errors);
+			EXPECT_GT(errors.points, 50u);
+			print(named.name + (log == MipLog::True ? ", true log2" : ""), errors);
 		}
-		EXPECT_GT(errors.points, 50000u);
-		print(log == MipLog::True ? "test scenes, true log2" : "test scenes", errors);
-	}
 }
 
 TEST(doubleSurface, builtinScenesStayWithinTheStatedBound)

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "scene/builtin.h"
+#include "scene/factor_rule.h"
 
 namespace tessera::test
 {
@@ -75,7 +76,7 @@ View viewOf(const ReferenceScene& scene, const Camera& camera, const ViewRequest
 
 reference::Classified classifyAll(const ReferenceScene& scene, const View& view, uint32_t max_split)
 {
-	return reference::classify(scene.host, view, reference::factorRule(scene.host, max_split), reference::allClusters(scene.host));
+	return reference::classify(scene.host, view, factorRule(view, scene.host.tableSize(), max_split), reference::allClusters(scene.host));
 }
 
 }  // namespace tessera::test
