@@ -5,6 +5,7 @@
 #include "bench/measure.h"
 #include "pipeline/passes.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace tessera::bench
@@ -48,6 +49,8 @@ public:
 			TRY(writeSeries(rows, "bench.csv", facts));
 			return writeFile(fs::path(settings_.out) / "bench.md", std::string_view(tablePage(rows, facts)));
 		}
+		std::stable_sort(rows.begin(), rows.end(),
+						 [](const Row& a, const Row& b) { return std::pair(a.what.raster, a.what.cull) < std::pair(b.what.raster, b.what.cull); });
 		addUnitCosts(rows);
 		for (const std::string& series : settings_.scaling)
 		{

@@ -97,11 +97,15 @@ public:
 	uint32_t validationMessages() const override { return messages_ + (device_ ? device_->validationMessages() : 0); }
 
 private:
-	Status makeDevice()
+	void dropDevice()
 	{
 		if (device_)
 			messages_ += device_->validationMessages();
 		device_.reset();
+	}
+
+	Status makeDevice()
+	{
 		TRY_ASSIGN(device_, Device::create({ settings_.base.device, settings_.base.validate }));
 		return {};
 	}
@@ -205,7 +209,7 @@ private:
 			row.frames = {};
 			row.error = oneLine(status.error().message);
 			if (status.error().code == ExitCode::DeviceLost)
-				device_.reset();  // made anew for the next row
+				dropDevice();  // made anew for the next row
 			return row;
 		}
 		const FrameResult& last = row.frames.last;
