@@ -6,6 +6,7 @@
 shared DomainTriangle part_records[BATCH_MAX_PARTS];
 shared BaseTriangle part_bases[BATCH_MAX_PARTS];
 shared Placement part_placements[BATCH_MAX_PARTS];
+shared uint part_materials[BATCH_MAX_PARTS];
 
 // Loads what batchVertex reads; after loadBatch. Ends with a barrier.
 void loadBatchParts(RasterInputs inputs, uint batch)
@@ -17,22 +18,21 @@ void loadBatchParts(RasterInputs inputs, uint batch)
 		DomainPiece piece = unpackTriangle(record);
 		ClusterRef ref = inputs.visible_clusters.at[piece.visible_cluster];
 		part_records[lane] = record;
-		part_bases[lane] = baseTriangle(inputs.surface.at[0], inputs.clusters.at[ref.cluster], piece.triangle);
+		ClusterRecord cluster = inputs.clusters.at[ref.cluster];
+		part_bases[lane] = baseTriangle(inputs.surface.at[0], cluster, piece.triangle);
+		part_materials[lane] = cluster.material;
 		part_placements[lane] = placementOf(inputs.instances.at[ref.instance], inputs.view.at[0]);
 	}
 	barrier();
 }
 
-// Micro-vertex `index` of the batch, clip coordinates.
-vec4 batchVertex(RasterInputs inputs, uint index)
+// What micro-vertex `index` of the batch, of part `owner`, is made of.
+SurfaceSample batchSample(RasterInputs inputs, uint index, uint owner)
 {
-	uint owner = owningPart(index, 0u);
 	DomainPiece piece = unpackTriangle(part_records[owner]);
 	uint edge_flags = triangleEdgeFlags(part_bases[owner].flags);
 	DomainPoint point = patternPoint(piece, index - (part_sums[owner] & 0xffffu), part_patterns[owner], inputs.table, edge_flags);
-	View view = inputs.view.at[0];
-	SurfacePoint surface_point = surfacePoint(inputs.surface.at[0], part_bases[owner], point, part_placements[owner], view);
-	return clipPosition(placed(part_placements[owner], surface_point.displaced), view);
+	return sampleAtPoint(inputs.surface.at[0], part_bases[owner], point);
 }
 
 #endif

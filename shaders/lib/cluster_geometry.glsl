@@ -3,14 +3,11 @@
 #define TESSERA_LIB_CLUSTER_GEOMETRY
 #include "shared/raster_inputs.h"
 
-vec4 clusterVertex(RasterInputs inputs, ClusterRecord cluster, InstanceRecord instance, uint vertex)
+SurfaceSample clusterSample(RasterInputs inputs, ClusterRecord cluster, uint vertex)
 {
-	View view = inputs.view.at[0];
 	Surface surface = inputs.surface.at[0];
-	Placement placement = placementOf(instance, view);
 	uint height_map = HAS_DISPLACEMENT ? surface.material_height_maps.at[cluster.material] : NO_INDEX;
-	SurfacePoint point = surfaceVertex(surface, cluster.first_vertex + vertex, height_map, placement, view);
-	return clipPosition(placed(placement, point.displaced), view);
+	return sampleAtVertex(surface, cluster.first_vertex + vertex, height_map);
 }
 
 uvec3 clusterTriangle(RasterInputs inputs, ClusterRecord cluster, InstanceRecord instance, uint triangle)

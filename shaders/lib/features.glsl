@@ -16,5 +16,9 @@ layout(constant_id = 10) const bool HAS_SINGLE_SIDED = true;
 layout(constant_id = 11) const bool IS_SHADED_VIEW = true;
 layout(constant_id = 12) const bool KEEPS_VERTICES = true;
 layout(constant_id = 13) const bool EXPANDS_TRIANGLES = true;
+layout(constant_id = 15) const bool HAS_HEIGHT_U8 = true;
+layout(constant_id = 16) const bool HAS_HEIGHT_U16 = true;
+layout(constant_id = 17) const bool HAS_HEIGHT_F32 = true;
+layout(constant_id = 14) const bool READS_BUFFER = true;
 
 #endif

@@ -13,16 +13,64 @@ float pixelHeightLevel(vec3 relative, Placement placement, float density, uint l
 	return heightLevel(pixel_squared * placement.inverse_scale_squared * density * density, level_count);
 }
 
-// Change of the displacement per unit of texture coordinate, by central differences over two texels of the level.
-vec2 heightGradient(Surface surface, uint map_index, vec2 uv, float level)
+// Height and its change per texel of one level: bilinear blends of texels and of their central differences, so that the
+// gradient has no steps at texel borders. Twelve texels.
+struct HeightSlope
+{
+	float height;
+	vec2 slope;
+};
+
+HeightSlope levelSlope(HeightMap map, uint first, vec2 folded, uint level)
+{
+	ivec2 size = max(ivec2(map.width, map.height) >> level, ivec2(1));
+	vec2 texel = folded * vec2(size) - 0.5;
+	ivec2 base = ivec2(floor(texel));
+	vec2 blend = texel - vec2(base);
+	uint columns[4], rows[4];
+	for (int i = 0; i < 4; ++i)
+	{
+		// Two texels beyond the border at most: fold once more where the map is smaller than that.
+		int x = base.x - 1 + i, y = base.y - 1 + i;
+		columns[i] = wrapTexel(map.wrap_u == WRAP_REPEAT ? (x + size.x) % size.x : x, uint(size.x), map.wrap_u);
+		rows[i] = first + uint(size.x) * wrapTexel(map.wrap_v == WRAP_REPEAT ? (y + size.y) % size.y : y, uint(size.y), map.wrap_v);
+	}
+	vec4 upper = vec4(texelHeight(map, rows[1] + columns[0]), texelHeight(map, rows[1] + columns[1]), texelHeight(map, rows[1] + columns[2]),
+	                  texelHeight(map, rows[1] + columns[3]));
+	vec4 lower = vec4(texelHeight(map, rows[2] + columns[0]), texelHeight(map, rows[2] + columns[1]), texelHeight(map, rows[2] + columns[2]),
+	                  texelHeight(map, rows[2] + columns[3]));
+	vec2 above = vec2(texelHeight(map, rows[0] + columns[1]), texelHeight(map, rows[0] + columns[2]));
+	vec2 below = vec2(texelHeight(map, rows[3] + columns[1]), texelHeight(map, rows[3] + columns[2]));
+	HeightSlope result;
+	result.height = mix(mix(upper.y, upper.z, blend.x), mix(lower.y, lower.z, blend.x), blend.y);
+	vec2 across = mix(vec2(upper.z - upper.x, upper.w - upper.y), vec2(lower.z - lower.x, lower.w - lower.y), blend.y);
+	vec2 down = mix(lower.yz - above, below - upper.yz, blend.y);
+	result.slope = 0.5 * vec2(mix(across.x, across.y, blend.x), mix(down.x, down.y, blend.x)) * vec2(size);
+	return result;
+}
+
+// Displacement, and its change per unit of texture coordinate, blended between two mips.
+HeightSlope displacementSlope(Surface surface, uint map_index, vec2 uv, float level)
 {
 	HeightMap map = surface.height_maps.at[map_index];
-	vec2 texel = exp2(level) / vec2(map.width, map.height);
-	float right = heightAt(surface, map_index, uv + vec2(texel.x, 0.0), level);
-	float left = heightAt(surface, map_index, uv - vec2(texel.x, 0.0), level);
-	float up = heightAt(surface, map_index, uv + vec2(0.0, texel.y), level);
-	float down = heightAt(surface, map_index, uv - vec2(0.0, texel.y), level);
-	return vec2(right - left, up - down) / (2.0 * texel) * map.factor;
+	vec2 folded = vec2(foldCoordinate(uv.x, map.wrap_u), foldCoordinate(uv.y, map.wrap_v));
+	uint fine = uint(level);
+	HeightSlope result = levelSlope(map, map.level_first[fine], folded, fine);
+	float blend = level - float(fine);
+	if (blend > 0.0)
+	{
+		HeightSlope coarse = levelSlope(map, map.level_first[fine + 1u], folded, fine + 1u);
+		result.height = mix(result.height, coarse.height, blend);
+		result.slope = mix(result.slope, coarse.slope, blend);
+	}
+	// Mirrored repeats run backwards every other time.
+	if (map.wrap_u == WRAP_MIRROR && fract(uv.x * 0.5) >= 0.5)
+		result.slope.x = -result.slope.x;
+	if (map.wrap_v == WRAP_MIRROR && fract(uv.y * 0.5) >= 0.5)
+		result.slope.y = -result.slope.y;
+	result.height = result.height * map.factor + map.offset;
+	result.slope *= map.factor;
+	return result;
 }
 
 struct ShadingSurface
@@ -43,10 +91,11 @@ ShadingSurface displacedNormal(Surface surface, BaseTriangle base, vec3 weights,
 	HeightSource source = ownHeightSource(surface, base, weights);
 	vec3 base_point = weightedVec3(p0, p1, p2, weights);
 
-	HeightMap map = surface.height_maps.at[base.height_map];
-	float level = pixelHeightLevel(placed(placement, base_point), placement, source.density, map.level_count, view);
-	result.displacement = (heightAt(surface, base.height_map, source.uv, level) * map.factor + map.offset) * view.displacement_scale;
-	vec2 gradient = heightGradient(surface, base.height_map, source.uv, level) * view.displacement_scale;
+	uint level_count = surface.height_maps.at[base.height_map].level_count;
+	float level = pixelHeightLevel(placed(placement, base_point), placement, source.density, level_count, view);
+	HeightSlope height = displacementSlope(surface, base.height_map, source.uv, level);
+	result.displacement = height.height * view.displacement_scale;
+	vec2 gradient = height.slope * view.displacement_scale;
 	float slope_u = dot(gradient, uv0 - uv2);
 	float slope_v = dot(gradient, uv1 - uv2);
 

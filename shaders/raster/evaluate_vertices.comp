@@ -12,8 +12,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/features.glsl"
 #include "raster/evaluate_vertices.h"
-#include "lib/batch_vertices.glsl"
-#include "lib/cluster_geometry.glsl"
+#include "lib/work_item.glsl"
 
 layout(local_size_x_id = 0) in;
 layout(push_constant, scalar) uniform Args { EvaluateVerticesArgs args; };
@@ -35,37 +34,17 @@ void writeTriangle(uint triangle, uint first_vertex, uvec3 corners, uint payload
 	args.indices.at[3u * args.heads.at[LIST_EXPANDED_TRIANGLES].capacity + triangle] = payload;
 }
 
-void evaluateCluster(FullCluster full)
+void evaluateItem(WorkItem item)
 {
-	ClusterRef ref = args.inputs.visible_clusters.at[full.visible_cluster];
-	ClusterRecord cluster = args.inputs.clusters.at[ref.cluster];
-	InstanceRecord instance = args.inputs.instances.at[ref.instance];
-	for (uint v = gl_LocalInvocationIndex; v < clusterVertices(cluster); v += gl_WorkGroupSize.x)
-		args.vertices.at[full.first_vertex + v] = clusterVertex(args.inputs, cluster, instance, v);
-	if (!EXPANDS_TRIANGLES)
-		return;
-	takeTriangles(clusterTriangles(cluster));
-	for (uint t = gl_LocalInvocationIndex; t < clusterTriangles(cluster); t += gl_WorkGroupSize.x)
-	{
-		uvec3 corners = clusterTriangle(args.inputs, cluster, instance, t);
-		writeTriangle(first_triangle + t, full.first_vertex, corners, packPayload(KIND_FULL_CLUSTER, full.visible_cluster, t));
-	}
-	barrier();
-}
-
-void evaluateBatch(Batch batch)
-{
-	loadBatch(args.inputs, batch.parts);
-	loadBatchParts(args.inputs, batch.parts);
-	for (uint v = gl_LocalInvocationIndex; v < batchVertices(); v += gl_WorkGroupSize.x)
-		args.vertices.at[batch.first_vertex + v] = batchVertex(args.inputs, v);
+	for (uint v = gl_LocalInvocationIndex; v < item.vertex_count; v += gl_WorkGroupSize.x)
+		args.vertices.at[item.first_vertex + v] = itemVertex(args.inputs, item, v);
 	if (EXPANDS_TRIANGLES)
 	{
-		takeTriangles(batchTriangles());
-		for (uint t = gl_LocalInvocationIndex; t < batchTriangles(); t += gl_WorkGroupSize.x)
+		takeTriangles(item.triangle_count);
+		for (uint t = gl_LocalInvocationIndex; t < item.triangle_count; t += gl_WorkGroupSize.x)
 		{
-			MicroTriangle triangle = batchTriangle(args.inputs, t, batch.parts);
-			writeTriangle(first_triangle + t, batch.first_vertex, triangle.vertices, triangle.payload);
+			MicroTriangle triangle = itemTriangle(args.inputs, item, t);
+			writeTriangle(first_triangle + t, item.first_vertex, triangle.vertices, triangle.payload);
 		}
 	}
 	barrier();
@@ -76,11 +55,7 @@ void main()
 	if (args.counts.at[0].overflow != 0u)
 		return;
 	uint cluster_count = args.heads.at[LIST_FULL_CLUSTERS].wanted;
-	for (uint index = gl_WorkGroupID.x; index < cluster_count; index += gl_NumWorkGroups.x)
-		evaluateCluster(args.full_clusters.at[index]);
-	if (!HAS_TESSELLATION || uint64_t(args.batches) == 0ul)
-		return;
-	uint batch_count = args.heads.at[LIST_BATCHES].wanted;
-	for (uint index = gl_WorkGroupID.x; index < batch_count; index += gl_NumWorkGroups.x)
-		evaluateBatch(args.batches.at[index]);
+	uint item_count = cluster_count + (HAS_TESSELLATION ? args.heads.at[LIST_BATCHES].wanted : 0u);
+	for (uint index = gl_WorkGroupID.x; index < item_count; index += gl_NumWorkGroups.x)
+		evaluateItem(workItem(args.inputs, args.full_clusters, args.batches, index, cluster_count));
 }

@@ -1,6 +1,7 @@
 // shade: colour every pixel from the visibility image, whoever produced it.
 //
-//   in   visibility_depth, visibility_payload   depth 0 is background
+//   in   visibility_depth, visibility_payload   from drawing passes; depth 0 is background
+//   in   visibility_buffer                      from raster_micro; emptied here for the next frame
 //   in   part_triangles, visible_clusters, surface, shading data
 //   out  picture   RGBA8, sRGB-encoded
 //   out  counts    covered_pixels
@@ -14,6 +15,7 @@
 #extension GL_EXT_nonuniform_qualifier : require
 #include "lib/features.glsl"
 #include "shading/shade.h"
+#include "lib/visibility_buffer.glsl"
 #include "lib/debug_colors.glsl"
 #include "lib/lighting.glsl"
 #include "lib/pixel_ray.glsl"
@@ -164,26 +166,52 @@ vec3 debugColor(SurfacePixel pixel, float depth, vec2 centre, View view)
 	}
 }
 
+// What a pixel sees.
+struct Visibility
+{
+	float depth;
+	uint payload;  // NO_INDEX: seen in an earlier round and shaded there
+};
+
+uint roundIndex() { return args.rounds & 0xffffu; }
+uint roundCount() { return args.rounds >> 16; }
+
+// Reads a word of the buffer and leaves it empty, or, between rounds, with its depth only.
+Visibility takeFromBuffer(uint index)
+{
+	VisibilityRef buffer_words = VisibilityRef(args.visibility);
+	uint64_t word = buffer_words.at[index];
+	if (word != 0ul)
+		buffer_words.at[index] = roundIndex() + 1u == roundCount() ? 0ul : word | 0xfffffffful;
+	return Visibility(uintBitsToFloat(uint(word >> 32)), uint(word));
+}
+
+Visibility visibilityAt(uvec2 place, uint index)
+{
+	if (READS_BUFFER)
+		return takeFromBuffer(index);
+	return Visibility(texelFetch(visibility_depth, ivec2(place), 0).x, texelFetch(visibility_payload, ivec2(place), 0).x);
+}
+
 void shadePixel(uvec2 place, View view)
 {
 	uint target = place.y * view.width_px + place.x;
 	vec2 centre = vec2(place) + 0.5;
-	float depth = texelFetch(visibility_depth, ivec2(place), 0).x;
-	if (depth == 0.0)
+	Visibility visibility = visibilityAt(place, target);
+	if (visibility.depth == 0.0)
 	{
-		if (args.round == 0u)
+		if (roundIndex() == 0u)
 			args.picture.at[target] = encodePicture(background(pixelRay(centre, view).direction), true);
 		return;
 	}
 	atomicAdd(covered, 1u);
-	uint payload = texelFetch(visibility_payload, ivec2(place), 0).x;
-	if (args.round_count > 1u && payload == NO_INDEX)
+	if (roundCount() > 1u && visibility.payload == NO_INDEX)
 		return;
-	SurfacePixel pixel = surfacePixel(payload, centre, view);
+	SurfacePixel pixel = surfacePixel(visibility.payload, centre, view);
 	if (IS_SHADED_VIEW)
 		args.picture.at[target] = encodePicture(litColor(materialColor(pixel, centre, view), pixel.normal, pixel.to_eye), true);
 	else
-		args.picture.at[target] = encodePicture(debugColor(pixel, depth, centre, view), args.view_mode == VIEW_FACETS);
+		args.picture.at[target] = encodePicture(debugColor(pixel, visibility.depth, centre, view), args.view_mode == VIEW_FACETS);
 }
 
 void main()

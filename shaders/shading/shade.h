@@ -26,11 +26,11 @@ struct ShadeArgs
 	GPU_PTR(ShadingData) shading;
 	GPU_PTR(uint) picture;  // RGBA8, sRGB-encoded
 	GPU_PTR(FrameCounts) counts;
+	uint64_t visibility;  // address of a 64-bit word per pixel; 0 when attachments hold depth and payload
 	uint view_mode;
-	uint round;
-	uint round_count;
+	uint rounds;  // round | round_count << 16
 };
-SHARED_LAYOUT(ShadeArgs, 120, round_count, 112)
+SHARED_LAYOUT(ShadeArgs, 120, rounds, 116)
 
 SHARED_END
 

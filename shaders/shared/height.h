@@ -55,13 +55,13 @@ SHARED_FN TexelPair texelPair(float folded, uint size, uint wrap)
 
 SHARED_FN precise float texelHeight(HeightMap map, uint texel)
 {
-	if (map.format == HEIGHT_U16)
+	if (HAS_HEIGHT_U16 && (!(HAS_HEIGHT_U8 || HAS_HEIGHT_F32) || map.format == HEIGHT_U16))
 	{
 		uint word = AT(uint, map.texels, texel >> 1);
 		precise float value16 = float((word >> ((texel & 1u) * 16u)) & 0xffffu) * 1.52590218966964e-05f;
 		return value16;
 	}
-	if (map.format == HEIGHT_U8)
+	if (HAS_HEIGHT_U8 && (!HAS_HEIGHT_F32 || map.format == HEIGHT_U8))
 	{
 		uint word = AT(uint, map.texels, texel >> 2);
 		precise float value8 = float((word >> ((texel & 3u) * 8u)) & 0xffu) * 3.92156862745098e-03f;

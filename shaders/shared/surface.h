@@ -199,38 +199,69 @@ SHARED_FN precise vec3 displacedPoint(vec3 base_point, vec3 direction, float dis
 	return result;
 }
 
-// The micro-vertex at domain point p of a base triangle.
-SHARED_FN SurfacePoint surfacePoint(Surface surface, BaseTriangle base, DomainPoint p, Placement placement, View view)
+// What a micro-vertex is made of, before its height is read.
+struct SurfaceSample
+{
+	vec3 base;       // mesh units
+	vec3 direction;  // not normalised
+	HeightSource source;
+};
+
+// The sample at domain point p of a base triangle.
+SHARED_FN SurfaceSample sampleAtPoint(Surface surface, BaseTriangle base, DomainPoint p)
 {
 	precise vec3 weights = domainWeights(p);
-	SurfacePoint point;
-	point.base = basePoint(surface, base, weights);
-	point.displaced = point.base;
+	SurfaceSample result;
+	result.base = basePoint(surface, base, weights);
+	result.direction = vec3(0.0f, 0.0f, 0.0f);
+	result.source.height_map = NO_INDEX;
 	if (HAS_DISPLACEMENT)
 	{
-		vec3 direction = normalized(weightedVec3(AT(vec3, surface.directions, base.v0), AT(vec3, surface.directions, base.v1),
-												 AT(vec3, surface.directions, base.v2), weights));
-		HeightSource source = heightSource(surface, base, p, weights);
-		float displacement = displacementAt(surface, source, point.base, placement, view);
-		point.displaced = displacedPoint(point.base, direction, displacement);
+		result.direction = weightedVec3(AT(vec3, surface.directions, base.v0), AT(vec3, surface.directions, base.v1), AT(vec3, surface.directions, base.v2), weights);
+		result.source = heightSource(surface, base, p, weights);
+	}
+	return result;
+}
+
+// The sample at a cluster's vertex: bit-equal to sampleAtPoint at that corner of any of its triangles.
+SHARED_FN SurfaceSample sampleAtVertex(Surface surface, uint vertex, uint height_map)
+{
+	SurfaceSample result;
+	result.base = AT(vec3, surface.positions, vertex);
+	result.direction = vec3(0.0f, 0.0f, 0.0f);
+	result.source.height_map = NO_INDEX;
+	if (HAS_DISPLACEMENT)
+	{
+		result.direction = AT(vec3, surface.directions, vertex);
+		result.source = vertexHeightSource(surface, vertex, height_map);
+	}
+	return result;
+}
+
+// The displaced point of a sample. Call it once per shader where possible: heights are most of a stage's code.
+SHARED_FN SurfacePoint displaced(Surface surface, SurfaceSample at, Placement placement, View view)
+{
+	SurfacePoint point;
+	point.base = at.base;
+	point.displaced = at.base;
+	if (HAS_DISPLACEMENT)
+	{
+		float displacement = displacementAt(surface, at.source, at.base, placement, view);
+		point.displaced = displacedPoint(at.base, normalized(at.direction), displacement);
 	}
 	return point;
 }
 
-// The micro-vertex at a cluster's vertex: bit-equal to surfacePoint at that corner of any of its triangles.
+// The micro-vertex at domain point p of a base triangle.
+SHARED_FN SurfacePoint surfacePoint(Surface surface, BaseTriangle base, DomainPoint p, Placement placement, View view)
+{
+	return displaced(surface, sampleAtPoint(surface, base, p), placement, view);
+}
+
+// The micro-vertex at a cluster's vertex.
 SHARED_FN SurfacePoint surfaceVertex(Surface surface, uint vertex, uint height_map, Placement placement, View view)
 {
-	SurfacePoint point;
-	point.base = AT(vec3, surface.positions, vertex);
-	point.displaced = point.base;
-	if (HAS_DISPLACEMENT)
-	{
-		vec3 direction = normalized(AT(vec3, surface.directions, vertex));
-		HeightSource source = vertexHeightSource(surface, vertex, height_map);
-		float displacement = displacementAt(surface, source, point.base, placement, view);
-		point.displaced = displacedPoint(point.base, direction, displacement);
-	}
-	return point;
+	return displaced(surface, sampleAtVertex(surface, vertex, height_map), placement, view);
 }
 
 SHARED_END

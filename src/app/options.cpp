@@ -19,7 +19,6 @@ constexpr uint32_t kMostCopies = 4096;   // of the scene, per direction
 constexpr double kMostLength = 1e30;     // world units
 constexpr double kMostShown = 1e9;       // ranges that end higher are left out of --help
 
-constexpr std::string_view kRasterNames[] = { "auto", "mesh", "indexed" };
 constexpr std::string_view kMetricNames[] = { "edge" };
 constexpr std::string_view kShadingNames[] = { "smooth", "flat" };
 constexpr std::string_view kViewNames[] = { "shaded",  "clusters",  "parts",  "triangles", "factors",   "depth",
@@ -164,7 +163,7 @@ const std::array kTable = {
 				Rebuild::Scene },
 	OptionDesc{ "rate", "PIXELS", "tessellation rate: wanted segment length; 0 = do not tessellate", &AppOptions::rate, 0, 1e6, Rebuild::Pipelines },
 	OptionDesc{ "metric", "NAME", "edge factor: edge = length / distance", choiceOf<&AppOptions::metric>(kMetricNames), 0, 0, Rebuild::Pipelines },
-	OptionDesc{ "raster", "NAME", "who finds visibility; auto takes mesh where the device has mesh shaders",
+	OptionDesc{ "raster", "NAME", "who finds visibility; auto takes what measured fastest for the device and the rate",
 				choiceOf<&AppOptions::raster>(kRasterNames), 0, 0, Rebuild::Buffers },
 	OptionDesc{ "cull", "on|off|LIST", "kinds of culling: frustum,backface",
 				Custom{ parseCull, printCull,
@@ -205,6 +204,8 @@ struct Overload : Cases...
 {
 	using Cases::operator()...;
 };
+template <typename... Cases>
+Overload(Cases...) -> Overload<Cases...>;  // Clang deduces no aggregates before version 17
 
 template <typename... Args>
 Status wrong(const OptionDesc& option, std::string_view text, fmt::format_string<Args...> format, Args&&... args)

@@ -31,7 +31,7 @@ ordered_json frameJson(const RunFacts& facts)
 	return {
 		{ "frames", facts.series.frame.gpu_ms.size() },
 		{ "gpu_ms", timesJson(facts.series.frame) },
-		{ "raster", usesMesh(facts.input) ? "mesh" : "indexed" },
+		{ "raster", rasterName(chosenRaster(facts.input)) },
 		{ "rate_wanted", last.rate_wanted },
 		{ "rate_granted", last.rate_granted },
 		{ "coarsening", last.coarsening },

@@ -25,7 +25,7 @@ std::string workingOn()
 void checkFailed(const char* file, int line, const char* condition, const std::string& message)
 {
 	std::fprintf(stderr, "%s:%d: check failed: %s%s%s (working on: %s)\n", file, line, condition, message.empty() ? "" : ": ", message.c_str(),
-	             workingOn().c_str());
+				 workingOn().c_str());
 	std::abort();
 }
 

@@ -16,10 +16,10 @@ std::string workingOn();
 
 }  // namespace tessera
 
-#define CHECK(condition, ...)                                                                   \
-	do                                                                                          \
-	{                                                                                           \
-		if (!(condition)) [[unlikely]]                                                          \
+#define CHECK(condition, ...)                                                                    \
+	do                                                                                           \
+	{                                                                                            \
+		if (!(condition)) [[unlikely]]                                                           \
 			::tessera::checkFailed(__FILE__, __LINE__, #condition, fmt::format("" __VA_ARGS__)); \
 	} while (false)
 

@@ -49,18 +49,18 @@ template <typename... Args>
 #define TESSERA_CONCAT(a, b) TESSERA_CONCAT_(a, b)
 
 // TRY(Status): returns its error from the calling function.
-#define TRY(expression)                                          \
-	do                                                           \
-	{                                                            \
-		auto try_status_ = (expression);                         \
-		if (!try_status_)                                        \
+#define TRY(expression)                                            \
+	do                                                             \
+	{                                                              \
+		auto try_status_ = (expression);                           \
+		if (!try_status_)                                          \
 			return tl::unexpected(std::move(try_status_.error())); \
 	} while (false)
 
 // TRY_ASSIGN(auto x, Result<T>): declares x or returns the error.
 #define TRY_ASSIGN(declaration, expression) TRY_ASSIGN_(TESSERA_CONCAT(try_result_, __LINE__), declaration, expression)
-#define TRY_ASSIGN_(name, declaration, expression)  \
-	auto name = (expression);                       \
-	if (!name)                                      \
+#define TRY_ASSIGN_(name, declaration, expression)      \
+	auto name = (expression);                           \
+	if (!name)                                          \
 		return tl::unexpected(std::move(name.error())); \
 	declaration = std::move(*name)

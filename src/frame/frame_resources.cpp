@@ -127,6 +127,15 @@ Status FrameResources::allocate(std::string_view name, uint64_t bytes)
 	return {};
 }
 
+Status FrameResources::allocateEmpty(std::string_view name, uint64_t bytes)
+{
+	TRY(allocate(name, bytes));
+	TRY(commands_->begin());
+	vkCmdFillBuffer(commands_->buffer(), buffer(name).handle(), 0, VK_WHOLE_SIZE, 0);
+	fullBarrier(commands_->buffer());
+	return commands_->submitAndWait();
+}
+
 Status FrameResources::makeHeads()
 {
 	std::vector<ListHead> heads(LIST_COUNT);
@@ -258,6 +267,8 @@ Status FrameResources::make(std::string_view name, const PlanInput& input)
 		return makeTextures();
 	if (name == "picture")
 		return allocate(name, uint64_t(input.options.width_px) * input.options.height_px * 4);
+	if (name == "visibility_buffer")
+		return allocateEmpty(name, uint64_t(input.options.width_px) * input.options.height_px * 8);
 	if (name == "view")
 		return allocate(name, sizeof(View));
 	if (name == "counts")
@@ -308,6 +319,7 @@ bool FrameResources::grow(const ListDesc& list, uint32_t wanted, const PlanInput
 Status FrameResources::writeView(const View& view, uint32_t round)
 {
 	round_ = round;
+	view_ = view;
 	vkCmdUpdateBuffer(commands_->buffer(), buffer("view").handle(), 0, sizeof(View), &view);
 	VkMemoryBarrier2 barrier = { VK_STRUCTURE_TYPE_MEMORY_BARRIER_2 };
 	barrier.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
@@ -361,7 +373,7 @@ MemoryStats FrameResources::memory() const
 	{
 		if (findList(name) || name == "heads" || name == "counts")
 			memory.lists += held.bytes();
-		else if (name == "picture")
+		else if (name == "picture" || name == "visibility_buffer")
 			memory.images += held.bytes();
 		else
 			memory.geometry += held.bytes();

@@ -34,6 +34,7 @@ public:
 	uint64_t headOffset(std::string_view list) const;
 	uint32_t capacity(std::string_view list) const;
 	uint32_t round() const { return round_; }
+	const View& view() const { return view_; }
 	uint32_t tableSize() const { return table_.max_edge_segments; }
 	const BindlessSet& bindless() const { return *bindless_; }
 	BindlessSet& bindless() { return *bindless_; }
@@ -52,6 +53,7 @@ private:
 	Status make(std::string_view name, const PlanInput& input);
 	Status upload(std::string_view name, std::span<const std::byte> bytes);
 	Status allocate(std::string_view name, uint64_t bytes);
+	Status allocateEmpty(std::string_view name, uint64_t bytes);
 	Status makeHeads();
 	Status makeSurface(const FramePlan& plan);
 	Status makeShadingData(const FramePlan& plan);
@@ -73,6 +75,7 @@ private:
 	Buffer readback_;
 	std::array<uint32_t, LIST_COUNT> capacities_ = {};
 	uint32_t round_ = 0;
+	View view_ = {};
 
 public:
 	~FrameResources();

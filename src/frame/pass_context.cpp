@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "frame/frame_resources.h"
+#include "scene/factor_rule.h"
 
 #include <algorithm>
 #include <array>
@@ -24,7 +25,7 @@ uint32_t PassContext::round() const
 
 FactorRule PassContext::factorRule() const
 {
-	return { resources_.tableSize(), std::min(input_.options.max_split, resources_.tableSize()) };
+	return tessera::factorRule(resources_.view(), resources_.tableSize(), std::min(input_.options.max_split, resources_.tableSize()));
 }
 
 uint32_t PassContext::capacity(std::string_view list) const

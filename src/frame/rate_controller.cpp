@@ -11,6 +11,7 @@ void RateController::beginFrame(bool same_view)
 	if (same_view && fitted_)
 		return;
 	attempt_ = {};
+	step_ = 0;
 	failed_.reset();
 	fitted_.reset();
 }
@@ -38,11 +39,12 @@ bool RateController::accept(const AttemptOutcome& outcome)
 		attempt_.coarsening = *failed_ + 1 >= *fitted_ ? *fitted_ : (*failed_ + 1 + *fitted_) / 2;
 		return false;
 	}
-	// Counts fall about with the square of the rate; a step that is too long is corrected by the search afterwards.
+	// Counts fall about with the square of the rate; where they hardly fall, steps double, so that few attempts reach any j. A step
+	// that is too long is corrected by the search afterwards.
 	const double suggested = 8 * std::log2(std::max(outcome.worst_ratio, 1.0));
-	const uint32_t step = std::max(1u, static_cast<uint32_t>(std::min(suggested, 1e6)));
-	attempt_.coarsening = j + step;
-	attempt_.every_factor_one = attempt_.coarsening >= kMostCoarsening;
+	step_ = std::max({ 1u, 2 * step_, static_cast<uint32_t>(std::min(suggested, double(kMostCoarsening))) });
+	attempt_.every_factor_one = j + 1 >= kMostCoarsening;
+	attempt_.coarsening = attempt_.every_factor_one ? kMostCoarsening : std::min(j + step_, kMostCoarsening - 1);
 	return false;
 }
 

@@ -36,6 +36,7 @@ public:
 
 private:
 	Attempt attempt_;
+	uint32_t step_ = 0;               // last move upwards
 	std::optional<uint32_t> failed_;  // largest j known not to fit
 	std::optional<uint32_t> fitted_;  // smallest j known to fit
 };

@@ -36,18 +36,21 @@ SceneSizes sizesOf(const BuiltScene& scene)
 
 DeviceTraits traitsOf(const Device& device)
 {
-	return { device.gates.mesh_shader, device.gates.fragment_primitive_id, device.is_cpu };
+	return { device.gates.mesh_shader, device.gates.buffer_atomics_64, device.gates.fragment_primitive_id, device.is_cpu };
 }
 
 namespace
 {
 
-Status checkGates(const Device& device, const RenderOptions& options)
+Status checkGates(const Device& device, const PlanInput& input)
 {
-	if (options.raster == Raster::Mesh && !device.gates.mesh_shader)
+	const RenderOptions& options = input.options;
+	const Raster raster = chosenRaster(input);
+	if (raster == Raster::Soft && !device.gates.buffer_atomics_64)
+		return fail(ExitCode::DeviceCannot, "--raster soft: {} lacks 64-bit buffer atomics; --raster mesh or indexed needs none", device.name);
+	if (raster == Raster::Mesh && !device.gates.mesh_shader)
 		return fail(ExitCode::DeviceCannot, "--raster mesh: {} lacks VK_EXT_mesh_shader; --raster indexed needs no mesh shaders", device.name);
-	const bool indexed = options.raster == Raster::Indexed || !device.gates.mesh_shader;
-	if (indexed && !device.gates.fragment_primitive_id)
+	if (raster == Raster::Indexed && !device.gates.fragment_primitive_id)
 		return fail(ExitCode::DeviceCannot, "--raster indexed: {} lacks primitive ids in fragment shaders (geometryShader) or 32-bit indices",
 					device.name);
 	if (options.width_px == 0 || options.height_px == 0 || std::max(options.width_px, options.height_px) > device.limits.max_image_extent)
@@ -70,7 +73,7 @@ public:
 
 	Status initialize()
 	{
-		TRY(checkGates(device_, input_.options));
+		TRY(checkGates(device_, input_));
 		TRY_ASSIGN(resources_, FrameResources::create(device_, scene_, table_, input_));
 		TRY_ASSIGN(runner_, PassRunner::create(device_, *resources_));
 		TRY_ASSIGN(plan_, planFor(framingCamera(scene_), {}));

@@ -117,6 +117,7 @@ constexpr ResourceDesc kResources[] = {
 	{ "indexed_draw", "buffer", fixedBytes<20> },
 	{ "visibility_depth", "image", perPixel<4> },
 	{ "visibility_payload", "image", perPixel<4> },
+	{ "visibility_buffer", "image", perPixel<8> },
 	{ "picture", "image", perPixel<4> },
 };
 

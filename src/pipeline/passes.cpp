@@ -7,7 +7,7 @@ std::span<const PassDesc* const> framePasses()
 {
 	static constexpr const PassDesc* kPasses[] = {
 		&kFrameBegin, &kInstanceClassify, &kClusterCull,  &kClusterClassify, &kTriangleSplit, &kBatchParts,
-		&kRateFit,    &kEvaluateVertices, &kDrawClusters, &kDrawBatches,     &kDrawIndexed,   &kShade,
+		&kRateFit,    &kEvaluateVertices, &kRasterMicro, &kDrawClusters, &kDrawBatches,     &kDrawIndexed,   &kShade,
 	};
 	return kPasses;
 }

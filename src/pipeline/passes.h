@@ -15,6 +15,7 @@ extern const PassDesc kTriangleSplit;
 extern const PassDesc kBatchParts;
 extern const PassDesc kRateFit;
 extern const PassDesc kEvaluateVertices;
+extern const PassDesc kRasterMicro;
 extern const PassDesc kDrawClusters;
 extern const PassDesc kDrawBatches;
 extern const PassDesc kDrawIndexed;

@@ -5,13 +5,29 @@
 namespace tessera
 {
 
+// The producer of visibility: what was asked for or, for `auto`, what measured fastest (docs/performance.md): compute where it
+// can be, unless triangles are so large that one workgroup each is too few.
+constexpr float kLargestSoftRate = 32;
+inline Raster chosenRaster(const PlanInput& input)
+{
+	if (input.options.raster != Raster::Auto)
+		return input.options.raster;
+	const bool small_triangles = input.options.rate > 0 && input.options.rate <= kLargestSoftRate;
+	if (input.device.buffer_atomics_64 && (small_triangles || !(input.device.mesh_shader || input.device.fragment_primitive_id)))
+		return Raster::Soft;
+	return input.device.mesh_shader ? Raster::Mesh : Raster::Indexed;
+}
+inline bool usesSoft(const PlanInput& input)
+{
+	return chosenRaster(input) == Raster::Soft;
+}
 inline bool usesMesh(const PlanInput& input)
 {
-	return input.device.mesh_shader && input.options.raster != Raster::Indexed;
+	return chosenRaster(input) == Raster::Mesh;
 }
 inline bool usesIndexed(const PlanInput& input)
 {
-	return input.options.raster == Raster::Indexed || (input.options.raster == Raster::Auto && !input.device.mesh_shader);
+	return chosenRaster(input) == Raster::Indexed;
 }
 
 inline constexpr Condition kDisplaced = {
@@ -27,8 +43,11 @@ inline constexpr Condition kDoesNotTessellate = { [](const PlanInput& input) { r
 inline constexpr Condition kSplits = { [](const PlanInput& input) { return kTessellates.holds(input) && input.view.split_levels > 0; },
 									   "no edge can exceed the table at this rate and camera" };
 inline constexpr Condition kCulls = { [](const PlanInput& input) { return input.options.cull.any(); }, "culling is off" };
+inline constexpr Condition kSoft = { usesSoft, "another producer of visibility is chosen, or the device lacks 64-bit buffer atomics" };
 inline constexpr Condition kMesh = { usesMesh, "another producer of visibility is chosen, or the device lacks VK_EXT_mesh_shader" };
-inline constexpr Condition kIndexed = { usesIndexed, "mesh shaders draw" };
+inline constexpr Condition kIndexed = { usesIndexed, "another producer of visibility is chosen" };
+inline constexpr Condition kDraws = { [](const PlanInput& input) { return !usesSoft(input); },
+									  "raster_micro evaluates its own vertices and writes a buffer" };
 inline constexpr Condition kPrimitiveId = { [](const PlanInput& input) { return input.device.fragment_primitive_id; },
 											"the device lacks primitive ids in fragment shaders (geometryShader) or 32-bit indices" };
 inline constexpr Condition kColorTextures = { [](const PlanInput& input) { return input.scene.has_color_textures; },

@@ -26,8 +26,12 @@ std::vector<Feature> shaderFeatures(const PlanInput& input)
 		feature("HAS_MIRRORED_INSTANCES", 9, input.scene.has_mirrored_instances, "no instance is mirrored"),
 		feature("HAS_SINGLE_SIDED", 10, input.scene.has_single_sided, "every material is double-sided"),
 		feature("IS_SHADED_VIEW", 11, input.options.view == ViewMode::Shaded, "a debug view is chosen"),
-		feature("KEEPS_VERTICES", 12, usesMesh(input) || usesIndexed(input), "the rasteriser evaluates its own vertices"),
-		feature("EXPANDS_TRIANGLES", 13, usesIndexed(input), "mesh shaders draw"),
+		conditional("KEEPS_VERTICES", 12, kDraws),
+		conditional("EXPANDS_TRIANGLES", 13, kIndexed),
+		conditional("READS_BUFFER", 14, kSoft),
+		feature("HAS_HEIGHT_U8", 15, input.scene.has_height_u8, "no height map has 8-bit texels"),
+		feature("HAS_HEIGHT_U16", 16, input.scene.has_height_u16, "no height map has 16-bit texels"),
+		feature("HAS_HEIGHT_F32", 17, input.scene.has_height_f32, "no height map has float texels"),
 	};
 }
 

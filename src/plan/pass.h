@@ -39,6 +39,7 @@ struct SceneSizes
 struct DeviceTraits
 {
 	bool mesh_shader = false;
+	bool buffer_atomics_64 = false;
 	bool fragment_primitive_id = false;
 	bool is_cpu = false;
 };

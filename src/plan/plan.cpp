@@ -156,6 +156,36 @@ bool isWritten(const FramePlan& plan, std::string_view resource, const PlanInput
 	return std::any_of(plan.steps.begin(), plan.steps.end(), [&](const PlanStep& step) { return writesOneOf(*step.pass, { resource }, input); });
 }
 
+// A list or an image holds nothing until a pass writes it; scene arrays and tables come from the host.
+bool isMadeByPasses(std::string_view resource, std::span<const ResourceDesc> resources)
+{
+	return std::any_of(resources.begin(), resources.end(),
+					   [&](const ResourceDesc& desc) { return desc.name == resource && (desc.kind == "list" || desc.kind == "image"); });
+}
+
+// Errors: DeviceCannot when a step reads what no step before it makes, with the reasons of the passes that could.
+Status checkReads(const FramePlan& plan, std::span<const PassDesc* const> passes, std::span<const ResourceDesc> resources, const PlanInput& input)
+{
+	std::set<std::string_view> made;
+	for (const PlanStep& step : plan.steps)
+	{
+		for (const Use& use : step.pass->uses)
+		{
+			if (writes(use.access) || !holds(use, input) || !isMadeByPasses(use.resource, resources) || made.count(use.resource) > 0)
+				continue;
+			std::string reasons;
+			for (const PassDesc* pass : passes)
+				if (!plan.has(pass->name) && writesOneOf(*pass, { use.resource }, input))
+					reasons += fmt::format("; {}: {}", pass->name, plan.reason(pass->name));
+			return fail(ExitCode::DeviceCannot, "{} needs '{}', which nothing makes{}", step.pass->name, use.resource, reasons);
+		}
+		for (const Use& use : step.pass->uses)
+			if (writes(use.access) && holds(use, input))
+				made.insert(use.resource);
+	}
+	return {};
+}
+
 }  // namespace
 
 bool FramePlan::has(std::string_view pass) const
@@ -213,6 +243,7 @@ Result<FramePlan> planFrame(std::span<const PassDesc* const> passes, std::span<c
 		if (!made)
 			return fail(ExitCode::DeviceCannot, "nothing can write '{}' on this device with these options", resource);
 	}
+	TRY(checkReads(plan, passes, resources, input));
 	planResources(passes, resources, input, plan);
 	plan.features = shaderFeatures(input);
 	return plan;

@@ -53,7 +53,8 @@ struct FramePlan
 };
 
 // Walks back from the wanted resources: a pass stays if its conditions hold and something kept reads what it writes.
-// `passes` in execution order. Errors: DeviceCannot when a wanted resource has no writer left, with the reasons.
+// `passes` in execution order. Errors: DeviceCannot when a wanted resource, or a list or image that a kept pass reads, has no
+// writer left, with the reasons.
 Result<FramePlan> planFrame(std::span<const PassDesc* const> passes, std::span<const ResourceDesc> resources,
 							std::span<const std::string_view> wanted, const PlanInput& input);
 

@@ -3,16 +3,24 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 
 namespace tessera
 {
 
+// Who finds visibility.
 enum class Raster : uint8_t
 {
 	Auto,
-	Mesh,
-	Indexed,
+	Soft,     // compute
+	Mesh,     // mesh shaders
+	Indexed,  // vertices and indices expanded by compute
 };
+inline constexpr std::string_view kRasterNames[] = { "auto", "soft", "mesh", "indexed" };
+inline constexpr std::string_view rasterName(Raster raster)
+{
+	return kRasterNames[static_cast<uint8_t>(raster)];
+}
 
 // Order shared with shaders/shading/shade.h (VIEW_*).
 enum class ViewMode : uint8_t

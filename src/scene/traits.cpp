@@ -30,6 +30,12 @@ void findTraits(BuiltScene& scene)
 		traits.has_single_sided = traits.has_single_sided || !double_sided;
 	}
 	traits.has_displacement = !scene.height_maps.empty();
+	for (const HeightMapData& map : scene.height_maps)
+	{
+		traits.has_height_u8 |= map.record.format == HEIGHT_U8;
+		traits.has_height_u16 |= map.record.format == HEIGHT_U16;
+		traits.has_height_f32 |= map.record.format == HEIGHT_F32;
+	}
 	traits.has_color_textures = !scene.color_textures.empty();
 	traits.has_vertex_colors = !scene.colors.empty();
 	const size_t bytes = scene.normals.size() * sizeof(vec3);

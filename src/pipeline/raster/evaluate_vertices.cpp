@@ -29,8 +29,9 @@ static void record(PassContext& pass)
 	pass.dispatchLoop(args, uint64_t(pass.capacity("batches")) + pass.capacity("full_clusters"));
 }
 
+static constexpr const Condition* kNeeded[] = { &kDraws };
 static constexpr std::string_view kShaders[] = { "raster/evaluate_vertices.comp" };
 
-const PassDesc kEvaluateVertices = { "evaluate_vertices", kUses, {}, kShaders, nullptr, record };
+const PassDesc kEvaluateVertices = { "evaluate_vertices", kUses, kNeeded, kShaders, nullptr, record };
 
 }  // namespace tessera

@@ -7,15 +7,16 @@ namespace tessera
 {
 
 static constexpr auto kUses = joinUses(surfaceUses(Access::ComputeRead), partUses(Access::ComputeRead),
-									   std::array<Use, 9>{ {
+									   std::array<Use, 10>{ {
 										   { "shading", Access::ComputeRead },
 										   { "materials", Access::ComputeRead },
 										   { "normals", Access::ComputeRead, &kNormals },
 										   { "color_uvs", Access::ComputeRead, &kColorTextures },
 										   { "color_textures", Access::ComputeRead, &kColorTextures },
 										   { "colors", Access::ComputeRead, &kVertexColors },
-										   { "visibility_depth", Access::ComputeRead },
-										   { "visibility_payload", Access::ComputeRead },
+										   { "visibility_depth", Access::ComputeRead, &kDraws },
+										   { "visibility_payload", Access::ComputeRead, &kDraws },
+										   { "visibility_buffer", Access::ComputeWrite, &kSoft },
 										   { "counts", Access::ComputeWrite },
 									   } },
 									   std::array<Use, 1>{ { { "picture", Access::ComputeWrite } } });
@@ -28,8 +29,8 @@ static void record(PassContext& pass)
 	args.picture = pass.address("picture");
 	args.counts = pass.address("counts");
 	args.view_mode = static_cast<uint32_t>(pass.input().options.view);
-	args.round = pass.round();
-	args.round_count = pass.input().view.rounds;
+	args.visibility = pass.address("visibility_buffer");
+	args.rounds = pass.round() | pass.input().view.rounds << 16;
 	pass.dispatch(args, (pass.input().options.width_px + 7) / 8, (pass.input().options.height_px + 7) / 8);
 }
 

@@ -1,0 +1,311 @@
+// A rasteriser in compute: vertices in shared memory, one lane per small triangle, the whole workgroup per wide one.
+//
+// Positions snap to 1/256 pixel, edge functions are exact integers and the top-left rule decides ties, so neighbours leave
+// no gap and cover no pixel twice. Depth and payload go into one 64-bit word per pixel by atomicMax: reverse z, nearer is
+// larger. Triangles that cross the near plane or leave the guard band are clipped first. All lanes of the workgroup call
+// these functions together. Source: Pineda, A Parallel Algorithm for Polygon Rasterization (1988).
+#ifndef TESSERA_LIB_SOFT_RASTER
+#define TESSERA_LIB_SOFT_RASTER
+#include "lib/visibility_buffer.glsl"
+#include "shared/view.h"
+#include "shared/visibility.h"
+
+const int SUBPIXELS = 256;
+const float GUARD_PX = 16384.0;    // beyond this, positions would not fit the integers
+const int SMALL_BOX_PX = 256;      // pixels of bounding box up to which one lane does it alone
+const uint MAX_RASTER_VERTICES = 128u;
+const uint MAX_RASTER_TRIANGLES = 128u;
+
+struct ScreenVertex
+{
+	ivec2 position;  // 1/256 pixels, y down
+	float depth;
+};
+
+shared vec4 raster_clip[MAX_RASTER_VERTICES];
+shared ScreenVertex raster_screen[MAX_RASTER_VERTICES];
+shared uint raster_inside[MAX_RASTER_VERTICES];    // 1: before the near plane and inside the guard band
+shared uvec2 raster_wide[MAX_RASTER_TRIANGLES];    // corners (3 x 8 bits, bit 31: two-sided) and payload of what one lane left
+shared uint raster_wide_count;
+shared vec4 raster_polygon[2][9];
+shared uint raster_polygon_size;
+
+// 1 / w by a bit-trick start and Newton steps: the same bits in every shader, so neighbours in different passes agree.
+precise float exactReciprocal(float w)
+{
+	precise float inverse = uintBitsToFloat(0x7ef311c7u - floatBitsToUint(w));
+	for (int step = 0; step < 4; ++step)
+	{
+		precise float product = w * inverse;
+		precise float correction = 2.0 - product;
+		inverse = inverse * correction;
+	}
+	return inverse;
+}
+
+bool insideGuard(vec4 clip, View view)
+{
+	float limit_x = clip.w * (2.0 * GUARD_PX / float(view.width_px));
+	float limit_y = clip.w * (2.0 * GUARD_PX / float(view.height_px));
+	return clip.w > 0.0 && clip.z <= clip.w && abs(clip.x) <= limit_x && abs(clip.y) <= limit_y;
+}
+
+ScreenVertex toScreen(vec4 clip, View view)
+{
+	precise float inverse = exactReciprocal(clip.w);
+	precise float x = clip.x * inverse * 0.5 + 0.5;
+	precise float y = clip.y * inverse * 0.5 + 0.5;
+	precise float x_px = x * float(view.width_px) * float(SUBPIXELS);
+	precise float y_px = y * float(view.height_px) * float(SUBPIXELS);
+	precise float depth = clip.z * inverse;
+	return ScreenVertex(ivec2(floor(vec2(x_px, y_px) + 0.5)), depth);
+}
+
+void beginRaster()
+{
+	if (gl_LocalInvocationIndex == 0u)
+		raster_wide_count = 0u;
+}
+
+void storeRasterVertex(uint index, vec4 clip, View view)
+{
+	bool inside = insideGuard(clip, view);
+	raster_clip[index] = clip;
+	raster_inside[index] = inside ? 1u : 0u;
+	if (inside)
+		raster_screen[index] = toScreen(clip, view);
+}
+
+void writeVisibility(VisibilityRef target, ivec2 pixel, float depth, uint payload, View view)
+{
+	// Depth 0 is background: what is infinitely far is not seen.
+	if (depth > 0.0)
+		atomicMax(target.at[uint(pixel.y) * view.width_px + uint(pixel.x)], (uint64_t(floatBitsToUint(depth)) << 32) | uint64_t(payload));
+}
+
+// Pixels whose centres the box of three points spans, within the picture; empty when high < low.
+struct PixelBox
+{
+	ivec2 low;
+	ivec2 high;
+};
+
+PixelBox pixelBox(ivec2 a, ivec2 b, ivec2 c, View view)
+{
+	ivec2 low = min(a, min(b, c));
+	ivec2 high = max(a, max(b, c));
+	const int half_pixel = SUBPIXELS / 2;
+	PixelBox box;
+	box.low = max((low + (SUBPIXELS - 1 - half_pixel)) >> 8, ivec2(0));
+	box.high = min((high - half_pixel) >> 8, ivec2(view.width_px, view.height_px) - 1);
+	return box;
+}
+
+// 1 where a point exactly on the edge does not belong to the triangle (clockwise on screen, y down).
+int edgeBias(ivec2 edge) { return edge.y < 0 || (edge.y == 0 && edge.x > 0) ? 0 : 1; }
+
+// Sorts corners clockwise on screen, given the sign of their doubled area. False when the triangle has no area or shows
+// its back and may not.
+bool orient(inout ScreenVertex b, inout ScreenVertex c, int area_sign, bool two_sided)
+{
+	if (area_sign == 0 || (area_sign > 0 && !two_sided))
+		return false;
+	if (area_sign < 0)
+	{
+		ScreenVertex swapped = b;
+		b = c;
+		c = swapped;
+	}
+	return true;
+}
+
+// One lane rasterises a triangle of a small box: 32-bit integers suffice there.
+void rasterSmall(VisibilityRef target, ScreenVertex a, ScreenVertex b, ScreenVertex c, PixelBox box, uint payload, bool two_sided, View view)
+{
+	ivec2 side_b = b.position - a.position;
+	ivec2 side_c = c.position - a.position;
+	int area = side_b.x * side_c.y - side_b.y * side_c.x;
+	if (!orient(b, c, area, two_sided))
+		return;
+	ivec2 first = box.low * SUBPIXELS + SUBPIXELS / 2;
+	ivec2 bc = c.position - b.position;
+	ivec2 ca = a.position - c.position;
+	ivec2 ab = b.position - a.position;
+	ivec2 from_b = first - b.position;
+	ivec2 from_a = first - a.position;
+	int bias_b = edgeBias(ca);
+	int bias_c = edgeBias(ab);
+	int row_a = bc.x * from_b.y - bc.y * from_b.x - edgeBias(bc);
+	int row_b = ca.x * from_a.y - ca.y * from_a.x - bias_b;
+	int row_c = ab.x * from_a.y - ab.y * from_a.x - bias_c;
+	float inverse_area = 1.0 / float(abs(area));
+	float slope_b = (b.depth - a.depth) * inverse_area;
+	float slope_c = (c.depth - a.depth) * inverse_area;
+	float depth = a.depth + float(bias_b) * slope_b + float(bias_c) * slope_c;
+	for (int y = box.low.y; y <= box.high.y; ++y)
+	{
+		int edge_a = row_a, edge_b = row_b, edge_c = row_c;
+		for (int x = box.low.x; x <= box.high.x; ++x)
+		{
+			if ((edge_a | edge_b | edge_c) >= 0)
+				writeVisibility(target, ivec2(x, y), depth + float(edge_b) * slope_b + float(edge_c) * slope_c, payload, view);
+			edge_a -= bc.y * SUBPIXELS;
+			edge_b -= ca.y * SUBPIXELS;
+			edge_c -= ab.y * SUBPIXELS;
+		}
+		row_a += bc.x * SUBPIXELS;
+		row_b += ca.x * SUBPIXELS;
+		row_c += ab.x * SUBPIXELS;
+	}
+}
+
+int64_t edgeAt(ivec2 from, ivec2 edge, ivec2 point)
+{
+	ivec2 offset = point - from;
+	return int64_t(edge.x) * int64_t(offset.y) - int64_t(edge.y) * int64_t(offset.x) - int64_t(edgeBias(edge));
+}
+
+// The workgroup rasterises one triangle of any size: lanes stride over the pixels of its box, 8 columns at a time.
+void rasterWide(VisibilityRef target, ScreenVertex a, ScreenVertex b, ScreenVertex c, PixelBox box, uint payload, View view)
+{
+	ivec2 bc = c.position - b.position;
+	ivec2 ca = a.position - c.position;
+	ivec2 ab = b.position - a.position;
+	ivec2 ac = c.position - a.position;
+	float area = float(int64_t(ab.x) * int64_t(ac.y) - int64_t(ab.y) * int64_t(ac.x));
+	ivec2 lane = ivec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3);
+	int rows = int(gl_WorkGroupSize.x >> 3);
+	for (int y = box.low.y + lane.y; y <= box.high.y; y += rows)
+		for (int x = box.low.x + lane.x; x <= box.high.x; x += 8)
+		{
+			ivec2 point = ivec2(x, y) * SUBPIXELS + SUBPIXELS / 2;
+			int64_t edge_a = edgeAt(b.position, bc, point);
+			int64_t edge_b = edgeAt(c.position, ca, point);
+			int64_t edge_c = edgeAt(a.position, ab, point);
+			if ((edge_a | edge_b | edge_c) < 0l)
+				continue;
+			float depth = a.depth + (b.depth - a.depth) * (float(edge_b) / area) + (c.depth - a.depth) * (float(edge_c) / area);
+			writeVisibility(target, ivec2(x, y), depth, payload, view);
+		}
+}
+
+void leaveWide(uvec3 corners, uint payload, bool two_sided)
+{
+	uint slot = atomicAdd(raster_wide_count, 1u);
+	raster_wide[slot] = uvec2(corners.x | (corners.y << 8) | (corners.z << 16) | (two_sided ? 0x80000000u : 0u), payload);
+}
+
+// One lane takes one triangle: does it alone when it is small, leaves it to the workgroup otherwise.
+void rasterTriangle(VisibilityRef target, uvec3 corners, uint payload, bool two_sided, View view)
+{
+	if ((raster_inside[corners.x] & raster_inside[corners.y] & raster_inside[corners.z]) == 0u)
+	{
+		leaveWide(corners, payload, two_sided);
+		return;
+	}
+	ScreenVertex a = raster_screen[corners.x];
+	ScreenVertex b = raster_screen[corners.y];
+	ScreenVertex c = raster_screen[corners.z];
+	PixelBox box = pixelBox(a.position, b.position, c.position, view);
+	if (any(greaterThan(box.low, box.high)))
+		return;
+	ivec2 span = max(a.position, max(b.position, c.position)) - min(a.position, min(b.position, c.position));
+	ivec2 size = box.high - box.low + 1;
+	if (max(span.x, span.y) >= 64 * SUBPIXELS || size.x * size.y > SMALL_BOX_PX)
+	{
+		leaveWide(corners, payload, two_sided);
+		return;
+	}
+	rasterSmall(target, a, b, c, box, payload, two_sided, view);
+}
+
+// Distance to clip plane `plane` (near, then the guard band's sides); inside when not negative.
+float clipDistance(vec4 clip, uint plane, View view)
+{
+	float limit_x = GUARD_PX * 2.0 / float(view.width_px);
+	float limit_y = GUARD_PX * 2.0 / float(view.height_px);
+	switch (plane)
+	{
+	case 0u: return clip.w - clip.z;
+	case 1u: return clip.w * limit_x - clip.x;
+	case 2u: return clip.w * limit_x + clip.x;
+	case 3u: return clip.w * limit_y - clip.y;
+	default: return clip.w * limit_y + clip.y;
+	}
+}
+
+// Sutherland and Hodgman (1974), by one lane. A new point is always computed from the inside end to the outside one, so
+// that both neighbours of an edge get the same.
+void clipPolygon(vec4 a, vec4 b, vec4 c, View view)
+{
+	raster_polygon[0][0] = a;
+	raster_polygon[0][1] = b;
+	raster_polygon[0][2] = c;
+	uint count = 3u;
+	for (uint plane = 0u; plane < 5u; ++plane)
+	{
+		uint from = plane & 1u, to = from ^ 1u, kept = 0u;
+		for (uint i = 0u; i < count; ++i)
+		{
+			vec4 p = raster_polygon[from][i];
+			vec4 q = raster_polygon[from][i + 1u == count ? 0u : i + 1u];
+			precise float p_distance = clipDistance(p, plane, view);
+			precise float q_distance = clipDistance(q, plane, view);
+			if (p_distance >= 0.0)
+				raster_polygon[to][kept++] = p;
+			if ((p_distance >= 0.0) == (q_distance >= 0.0))
+				continue;
+			bool p_inside = p_distance >= 0.0;
+			precise vec4 inside = p_inside ? p : q;
+			precise vec4 outside = p_inside ? q : p;
+			precise float inside_distance = p_inside ? p_distance : q_distance;
+			precise float outside_distance = p_inside ? q_distance : p_distance;
+			precise float along = inside_distance * exactReciprocal(inside_distance - outside_distance);
+			precise vec4 step = outside - inside;
+			precise vec4 crossing = inside + step * along;
+			raster_polygon[to][kept++] = crossing;
+		}
+		count = kept;
+		if (count == 0u)
+			break;
+	}
+	raster_polygon_size = count;
+}
+
+void rasterWideCorners(VisibilityRef target, ScreenVertex a, ScreenVertex b, ScreenVertex c, uint payload, bool two_sided, View view)
+{
+	ivec2 side_b = b.position - a.position;
+	ivec2 side_c = c.position - a.position;
+	int64_t area = int64_t(side_b.x) * int64_t(side_c.y) - int64_t(side_b.y) * int64_t(side_c.x);
+	if (!orient(b, c, area > 0l ? 1 : (area < 0l ? -1 : 0), two_sided))
+		return;
+	rasterWide(target, a, b, c, pixelBox(a.position, b.position, c.position, view), payload, view);
+}
+
+// The whole workgroup does what single lanes left. Begins and ends with a barrier.
+void finishRaster(VisibilityRef target, View view)
+{
+	barrier();
+	for (uint i = 0u; i < raster_wide_count; ++i)
+	{
+		uvec2 wide = raster_wide[i];
+		uvec3 corners = uvec3(wide.x & 0xffu, (wide.x >> 8) & 0xffu, (wide.x >> 16) & 0xffu);
+		bool two_sided = (wide.x & 0x80000000u) != 0u;
+		if ((raster_inside[corners.x] & raster_inside[corners.y] & raster_inside[corners.z]) != 0u)
+		{
+			rasterWideCorners(target, raster_screen[corners.x], raster_screen[corners.y], raster_screen[corners.z], wide.y, two_sided, view);
+			continue;
+		}
+		if (gl_LocalInvocationIndex == 0u)
+			clipPolygon(raster_clip[corners.x], raster_clip[corners.y], raster_clip[corners.z], view);
+		barrier();
+		// Five planes: the clipped polygon lies in the second array.
+		for (uint corner = 2u; corner < raster_polygon_size; ++corner)
+			rasterWideCorners(target, toScreen(raster_polygon[1][0], view), toScreen(raster_polygon[1][corner - 1u], view),
+			                  toScreen(raster_polygon[1][corner], view), wide.y, two_sided, view);
+		barrier();
+	}
+	barrier();
+}
+
+#endif

@@ -1,0 +1,51 @@
+// raster_micro: evaluate the micro-vertices of a full cluster or batch into shared memory and rasterise them there.
+//
+//   in   full_clusters, batches
+//   out  visibility_buffer   uint64[]   per pixel, depth << 32 | payload, by atomicMax
+//
+// One workgroup takes one full cluster or batch at a time: lanes stride over its vertices, then over its triangles.
+// Host: src/pipeline/raster/raster_micro.cpp   Test: tests/gpu/raster_test.cpp
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_shader_atomic_int64 : require
+// Before every include: glslang takes a workgroup size that is used before it is declared for 1.
+layout(local_size_x_id = 0) in;
+#include "lib/features.glsl"
+#include "raster/raster_micro.h"
+#include "lib/soft_raster.glsl"
+#include "lib/work_item.glsl"
+
+layout(push_constant, scalar) uniform Args { RasterMicroArgs args; };
+
+bool isTwoSided(uint material)
+{
+	if (!HAS_MIXED_SIDES)
+		return !HAS_SINGLE_SIDED;
+	return (args.inputs.material_flags.at[material] & MATERIAL_DOUBLE_SIDED) != 0u;
+}
+
+void rasterItem(WorkItem item, View view)
+{
+	beginRaster();
+	for (uint v = gl_LocalInvocationIndex; v < item.vertex_count; v += gl_WorkGroupSize.x)
+		storeRasterVertex(v, itemVertex(args.inputs, item, v), view);
+	barrier();
+	VisibilityRef target = VisibilityRef(args.visibility);
+	for (uint t = gl_LocalInvocationIndex; t < item.triangle_count; t += gl_WorkGroupSize.x)
+	{
+		MicroTriangle triangle = itemTriangle(args.inputs, item, t);
+		rasterTriangle(target, triangle.vertices, triangle.payload, isTwoSided(itemMaterial(item, t)), view);
+	}
+	finishRaster(target, view);
+}
+
+void main()
+{
+	if (args.counts.at[0].overflow != 0u)
+		return;
+	View view = args.inputs.view.at[0];
+	uint cluster_count = args.heads.at[LIST_FULL_CLUSTERS].wanted;
+	uint item_count = cluster_count + (HAS_TESSELLATION ? args.heads.at[LIST_BATCHES].wanted : 0u);
+	for (uint index = gl_WorkGroupID.x; index < item_count; index += gl_NumWorkGroups.x)
+		rasterItem(workItem(args.inputs, args.full_clusters, args.batches, index, cluster_count), view);
+}

@@ -1,0 +1,22 @@
+// Arguments of raster_micro.
+#ifndef TESSERA_RASTER_RASTER_MICRO_H
+#define TESSERA_RASTER_RASTER_MICRO_H
+#include "shared/lists.h"
+#include "shared/raster_inputs.h"
+
+SHARED_BEGIN
+
+struct RasterMicroArgs
+{
+	RasterInputs inputs;
+	GPU_PTR(ListHead) heads;
+	GPU_PTR(FrameCounts) counts;
+	GPU_PTR(FullCluster) full_clusters;
+	GPU_PTR(Batch) batches;  // 0 when nothing is tessellated
+	uint64_t visibility;     // address of a 64-bit word per pixel: depth << 32 | payload
+};
+SHARED_LAYOUT(RasterMicroArgs, 120, visibility, 112)
+
+SHARED_END
+
+#endif
