@@ -17,7 +17,7 @@ struct EdgeView
 // Limits of the table and of one split.
 struct FactorRule
 {
-	uint table_size;  // T, 2..15: largest factor of a pattern
+	uint table_size;  // T, 1..15: largest factor of a pattern, less at very coarse rates (scene/factor_rule.h)
 	uint max_split;   // pieces per edge of one split, 2..T
 };
 SHARED_LAYOUT(FactorRule, 8, max_split, 4)

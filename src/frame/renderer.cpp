@@ -4,6 +4,7 @@
 #include "frame/pass_runner.h"
 #include "frame/rate_controller.h"
 #include "plan/conditions.h"
+#include "scene/factor_rule.h"
 
 #include <algorithm>
 #include <cmath>
@@ -135,8 +136,9 @@ private:
 
 	Result<FramePlan> planFor(const Camera& camera, const Attempt& attempt)
 	{
-		const FactorBound bound =
-			boundFactors(camera, scene_, requestFor(attempt), table_.max_edge_segments, std::min(input_.options.max_split, table_.max_edge_segments));
+		TRY_ASSIGN(view_, makeView(camera, scene_, requestFor(attempt)));
+		const FactorRule rule = factorRule(view_, table_.max_edge_segments, std::min(input_.options.max_split, table_.max_edge_segments));
+		const FactorBound bound = boundFactors(camera, scene_, requestFor(attempt), rule.table_size, rule.max_split);
 		input_.view.factors_above_one = bound.above_one;
 		input_.view.split_levels = bound.split_levels > 0 || levels_needed_ > 0 ? std::max(bound.split_levels, levels_needed_) : 0;
 		input_.view.rounds = attempt.rounds;
@@ -148,7 +150,6 @@ private:
 	{
 		grew_ = false;
 		outcome_ = { true, 1, false };
-		TRY_ASSIGN(view_, makeView(camera, scene_, requestFor(attempt)));
 		TRY_ASSIGN(plan_, planFor(camera, attempt));
 		TRY(resources_->prepare(plan_, input_));
 		TRY(runner_->preparePipelines(plan_, input_));

@@ -43,8 +43,10 @@ inline constexpr Condition kDoesNotTessellate = { [](const PlanInput& input) { r
 inline constexpr Condition kSplits = { [](const PlanInput& input) { return kTessellates.holds(input) && input.view.split_levels > 0; },
 									   "no edge can exceed the table at this rate and camera" };
 inline constexpr Condition kCulls = { [](const PlanInput& input) { return input.options.cull.any(); }, "culling is off" };
-inline constexpr Condition kSoft = { usesSoft, "another producer of visibility is chosen, or the device lacks 64-bit buffer atomics" };
-inline constexpr Condition kMesh = { usesMesh, "another producer of visibility is chosen, or the device lacks VK_EXT_mesh_shader" };
+inline constexpr Condition kSoft = { [](const PlanInput& input) { return usesSoft(input) && input.device.buffer_atomics_64; },
+									 "another producer of visibility is chosen, or the device lacks 64-bit buffer atomics" };
+inline constexpr Condition kMesh = { [](const PlanInput& input) { return usesMesh(input) && input.device.mesh_shader; },
+									 "another producer of visibility is chosen, or the device lacks VK_EXT_mesh_shader" };
 inline constexpr Condition kIndexed = { usesIndexed, "another producer of visibility is chosen" };
 inline constexpr Condition kDraws = { [](const PlanInput& input) { return !usesSoft(input); },
 									  "raster_micro evaluates its own vertices and writes a buffer" };

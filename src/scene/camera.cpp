@@ -164,6 +164,9 @@ Result<View> makeView(const Camera& camera, const BuiltScene& scene, const ViewR
 	view.inverse_unit_squared = static_cast<float>(1 / (unit * unit));
 	setProjection(view, camera, scene, request, unit);
 	view.rate_over_focal_squared = rateOverFocalSquared(camera, request.height_px, request.every_factor_one ? 0 : request.rate_px);
+	// Segments longer than two thirds of their distance: factors above 1 could not be split to an end (factor_rule.h).
+	if (!camera.orthographic && view.rate_over_focal_squared > 4.0f / 9)
+		view.rate_over_focal_squared = std::numeric_limits<float>::infinity();
 	view.sample_over_focal_squared = request.rate_px > 0 ? rateOverFocalSquared(camera, request.height_px, request.rate_px) : 0;
 	view.displacement_scale = request.displacement_scale;
 	view.width_px = request.width_px;
