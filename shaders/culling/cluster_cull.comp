@@ -10,6 +10,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/features.glsl"
+#include "lib/frame_data.glsl"
 #include "culling/cluster_cull.h"
 #include "lib/full_clusters.glsl"
 
@@ -43,7 +44,7 @@ bool isVisible(ClusterGroup group, uint cluster)
 {
 	if (!HAS_CULLING)
 		return true;
-	View view = args.view.at[0];
+	View view = frame_view;
 	InstanceRecord instance = args.instances.at[group.instance];
 	DisplacedBounds bounds = args.cluster_bounds.at[cluster];
 	Placement placement = placementOf(instance, view);

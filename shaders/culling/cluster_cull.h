@@ -9,7 +9,6 @@ SHARED_BEGIN
 
 struct ClusterCullArgs
 {
-	GPU_PTR(View) view;
 	GPU_PTR(InstanceRecord) instances;
 	GPU_PTR(ClusterRecord) clusters;
 	GPU_PTR(DisplacedBounds) cluster_bounds;  // 0 without culling
@@ -22,7 +21,7 @@ struct ClusterCullArgs
 	uint cull_backface;
 	uint emit_full;  // 1: no factor can exceed 1, every visible cluster is full
 };
-SHARED_LAYOUT(ClusterCullArgs, 88, emit_full, 80)
+SHARED_LAYOUT(ClusterCullArgs, 80, emit_full, 72)
 
 SHARED_END
 

@@ -9,6 +9,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/features.glsl"
+#include "lib/frame_data.glsl"
 #include "culling/instance_classify.h"
 #include "lib/lists.glsl"
 
@@ -19,7 +20,7 @@ bool isVisible(InstanceRecord instance)
 {
 	if (!HAS_CULLING)
 		return true;
-	View view = args.view.at[0];
+	View view = frame_view;
 	Box box = displacedBox(args.mesh_bounds.at[instance.mesh], view.displacement_scale);
 	return boxMayBeVisible(box, placementOf(instance, view), view);
 }

@@ -9,7 +9,6 @@ SHARED_BEGIN
 
 struct InstanceClassifyArgs
 {
-	GPU_PTR(View) view;
 	GPU_PTR(InstanceRecord) instances;
 	GPU_PTR(MeshRecord) meshes;
 	GPU_PTR(DisplacedBounds) mesh_bounds;  // 0 without culling
@@ -19,7 +18,7 @@ struct InstanceClassifyArgs
 	uint round;  // a frame in several rounds takes every round_count-th group in each
 	uint round_count;
 };
-SHARED_LAYOUT(InstanceClassifyArgs, 64, round_count, 56)
+SHARED_LAYOUT(InstanceClassifyArgs, 56, round_count, 48)
 
 SHARED_END
 

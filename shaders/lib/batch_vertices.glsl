@@ -1,6 +1,7 @@
 // The micro-vertices of a batch: what each part's evaluation needs is loaded once per workgroup.
 #ifndef TESSERA_LIB_BATCH_VERTICES
 #define TESSERA_LIB_BATCH_VERTICES
+#include "lib/frame_data.glsl"
 #include "lib/batch.glsl"
 
 shared DomainTriangle part_records[BATCH_MAX_PARTS];
@@ -19,9 +20,9 @@ void loadBatchParts(RasterInputs inputs, uint batch)
 		ClusterRef ref = inputs.visible_clusters.at[piece.visible_cluster];
 		part_records[lane] = record;
 		ClusterRecord cluster = inputs.clusters.at[ref.cluster];
-		part_bases[lane] = baseTriangle(inputs.surface.at[0], cluster, piece.triangle);
+		part_bases[lane] = baseTriangle(frame_surface, cluster, piece.triangle);
 		part_materials[lane] = cluster.material;
-		part_placements[lane] = placementOf(inputs.instances.at[ref.instance], inputs.view.at[0]);
+		part_placements[lane] = placementOf(inputs.instances.at[ref.instance], frame_view);
 	}
 	barrier();
 }
@@ -32,7 +33,7 @@ SurfaceSample batchSample(RasterInputs inputs, uint index, uint owner)
 	DomainPiece piece = unpackTriangle(part_records[owner]);
 	uint edge_flags = triangleEdgeFlags(part_bases[owner].flags);
 	DomainPoint point = patternPoint(piece, index - (part_sums[owner] & 0xffffu), part_patterns[owner], inputs.table, edge_flags);
-	return sampleAtPoint(inputs.surface.at[0], part_bases[owner], point);
+	return sampleAtPoint(frame_surface, part_bases[owner], point);
 }
 
 #endif

@@ -1,18 +1,19 @@
 // A full cluster: drawn as stored, its vertices displaced.
 #ifndef TESSERA_LIB_CLUSTER_GEOMETRY
 #define TESSERA_LIB_CLUSTER_GEOMETRY
+#include "lib/frame_data.glsl"
 #include "shared/raster_inputs.h"
 
 SurfaceSample clusterSample(RasterInputs inputs, ClusterRecord cluster, uint vertex)
 {
-	Surface surface = inputs.surface.at[0];
+	Surface surface = frame_surface;
 	uint height_map = HAS_DISPLACEMENT ? surface.material_height_maps.at[cluster.material] : NO_INDEX;
 	return sampleAtVertex(surface, cluster.first_vertex + vertex, height_map);
 }
 
 uvec3 clusterTriangle(RasterInputs inputs, ClusterRecord cluster, InstanceRecord instance, uint triangle)
 {
-	uint base = inputs.surface.at[0].triangles.at[cluster.first_triangle + triangle];
+	uint base = frame_surface.triangles.at[cluster.first_triangle + triangle];
 	uvec3 corners = uvec3(triangleVertex(base, 0u), triangleVertex(base, 1u), triangleVertex(base, 2u));
 	return HAS_MIRRORED_INSTANCES && instance.mirrored != 0u ? corners.yxz : corners;
 }

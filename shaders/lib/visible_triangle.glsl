@@ -1,6 +1,7 @@
 // The micro-triangle that a visibility payload names, evaluated again by the function that its rasteriser used.
 #ifndef TESSERA_LIB_VISIBLE_TRIANGLE
 #define TESSERA_LIB_VISIBLE_TRIANGLE
+#include "lib/frame_data.glsl"
 #include "shared/raster_inputs.h"
 
 struct VisibleTriangle
@@ -16,6 +17,7 @@ struct VisibleTriangle
 	DomainPiece piece;      // part triangle; the whole base triangle for full clusters
 	DomainPoint corners[3]; // of the micro-triangle, in the base triangle's winding
 	vec3 relative[3];       // the same, displaced and placed
+	vec3 centre;            // weights of the micro-triangle's centre
 };
 
 DomainPiece wholeTriangle(uint visible, uint triangle)
@@ -50,7 +52,9 @@ void findCorners(RasterInputs inputs, uint payload, inout VisibleTriangle visibl
 		visible.corners[i] = patternPoint(visible.piece, indices[i], pattern, inputs.table, edge_flags);
 }
 
-VisibleTriangle visibleTriangle(RasterInputs inputs, uint payload)
+// `centre_only`: the micro-triangle is about a pixel or less, so its centre stands for every point of it; corners and
+// relative then describe the whole base triangle, undisplaced, which tells directions and derivatives well enough.
+VisibleTriangle visibleTriangle(RasterInputs inputs, uint payload, bool centre_only)
 {
 	VisibleTriangle visible;
 	uint index = payloadIndex(payload);
@@ -66,12 +70,22 @@ VisibleTriangle visibleTriangle(RasterInputs inputs, uint payload)
 	visible.triangle = visible.piece.triangle;
 	visible.material = cluster.material;
 	visible.largest_factor = visible.piece.a;
-	visible.base = baseTriangle(inputs.surface.at[0], cluster, visible.triangle);
-	visible.placement = placementOf(inputs.instances.at[ref.instance], inputs.view.at[0]);
+	visible.base = baseTriangle(frame_surface, cluster, visible.triangle);
+	visible.placement = placementOf(inputs.instances.at[ref.instance], frame_view);
 	findCorners(inputs, payload, visible);
+	visible.centre = (domainWeights(visible.corners[0]) + domainWeights(visible.corners[1]) + domainWeights(visible.corners[2])) / 3.0;
+	if (centre_only)
+	{
+		for (uint i = 0u; i < 3u; ++i)
+			visible.corners[i] = domainCorner(i);
+		visible.relative[0] = placed(visible.placement, frame_surface.positions.at[visible.base.v0]);
+		visible.relative[1] = placed(visible.placement, frame_surface.positions.at[visible.base.v1]);
+		visible.relative[2] = placed(visible.placement, frame_surface.positions.at[visible.base.v2]);
+		return visible;
+	}
 	for (uint i = 0u; i < 3u; ++i)
 	{
-		SurfacePoint point = surfacePoint(inputs.surface.at[0], visible.base, visible.corners[i], visible.placement, inputs.view.at[0]);
+		SurfacePoint point = surfacePoint(frame_surface, visible.base, visible.corners[i], visible.placement, frame_view);
 		visible.relative[i] = placed(visible.placement, point.displaced);
 	}
 	return visible;

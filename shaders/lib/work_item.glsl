@@ -2,6 +2,7 @@
 // most of a stage's code, are compiled in once.
 #ifndef TESSERA_LIB_WORK_ITEM
 #define TESSERA_LIB_WORK_ITEM
+#include "lib/frame_data.glsl"
 #include "lib/batch_vertices.glsl"
 #include "lib/cluster_geometry.glsl"
 
@@ -57,7 +58,7 @@ WorkItem workItem(RasterInputs inputs, FullClusterRef full_clusters, BatchRef ba
 // Micro-vertex `index` of the item, clip coordinates.
 vec4 itemVertex(RasterInputs inputs, WorkItem item, uint index)
 {
-	View view = inputs.view.at[0];
+	View view = frame_view;
 	Placement placement;
 	SurfaceSample at;
 	if (HAS_TESSELLATION && item.is_batch)
@@ -71,7 +72,7 @@ vec4 itemVertex(RasterInputs inputs, WorkItem item, uint index)
 		placement = placementOf(item.instance, view);
 		at = clusterSample(inputs, item.cluster, index);
 	}
-	return clipPosition(placed(placement, displaced(inputs.surface.at[0], at, placement, view).displaced), view);
+	return clipPosition(placed(placement, displaced(frame_surface, at, placement, view).displaced), view);
 }
 
 MicroTriangle itemTriangle(RasterInputs inputs, WorkItem item, uint index)

@@ -16,7 +16,7 @@ struct EvaluateVerticesArgs
 	GPU_PTR(vec4) vertices;  // clip coordinates
 	GPU_PTR(uint) indices;   // 0 unless drawn indexed
 };
-SHARED_LAYOUT(EvaluateVerticesArgs, 128, indices, 120)
+SHARED_LAYOUT(EvaluateVerticesArgs, 112, indices, 104)
 
 SHARED_END
 

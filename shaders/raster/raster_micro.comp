@@ -11,6 +11,7 @@
 // Before every include: glslang takes a workgroup size that is used before it is declared for 1.
 layout(local_size_x_id = 0) in;
 #include "lib/features.glsl"
+#include "lib/frame_data.glsl"
 #include "raster/raster_micro.h"
 #include "lib/soft_raster.glsl"
 #include "lib/work_item.glsl"
@@ -43,7 +44,7 @@ void main()
 {
 	if (args.counts.at[0].overflow != 0u)
 		return;
-	View view = args.inputs.view.at[0];
+	View view = frame_view;
 	uint cluster_count = args.heads.at[LIST_FULL_CLUSTERS].wanted;
 	uint item_count = cluster_count + (HAS_TESSELLATION ? args.heads.at[LIST_BATCHES].wanted : 0u);
 	for (uint index = gl_WorkGroupID.x; index < item_count; index += gl_NumWorkGroups.x)

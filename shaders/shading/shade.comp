@@ -14,6 +14,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_nonuniform_qualifier : require
 #include "lib/features.glsl"
+#include "lib/frame_data.glsl"
 #include "shading/shade.h"
 #include "lib/visibility_buffer.glsl"
 #include "lib/debug_colors.glsl"
@@ -34,7 +35,6 @@ shared uint covered;
 struct SurfacePixel
 {
 	VisibleTriangle visible;
-	vec3 barycentrics;  // within the micro-triangle
 	vec3 weights;       // within the base triangle
 	vec3 normal;        // world space, unit, towards the eye
 	vec3 to_eye;        // world space, unit
@@ -70,7 +70,7 @@ vec3 smoothNormal(inout SurfacePixel pixel, View view)
 	BaseTriangle base = pixel.visible.base;
 	vec3 authored = shading.normals.at[base.v0] * pixel.weights.x + shading.normals.at[base.v1] * pixel.weights.y +
 	                shading.normals.at[base.v2] * pixel.weights.z;
-	ShadingSurface surface = displacedNormal(args.inputs.surface.at[0], base, pixel.weights, authored, pixel.visible.placement, view);
+	ShadingSurface surface = displacedNormal(frame_surface, base, pixel.weights, authored, pixel.visible.placement, view);
 	pixel.displacement = surface.displacement;
 	return worldNormal(surface.normal, pixel.visible.placement);
 }
@@ -78,9 +78,9 @@ vec3 smoothNormal(inout SurfacePixel pixel, View view)
 SurfacePixel surfacePixel(uint payload, vec2 centre, View view)
 {
 	SurfacePixel pixel;
-	pixel.visible = visibleTriangle(args.inputs, payload);
-	pixel.barycentrics = insideBarycentrics(barycentricsAt(pixel.visible, centre, view));
-	pixel.weights = weightsAt(pixel.visible, pixel.barycentrics);
+	bool by_centre = IS_SHADED_VIEW && args.centre_only != 0u && payloadKind(payload) == KIND_PART_TRIANGLE;
+	pixel.visible = visibleTriangle(args.inputs, payload, by_centre);
+	pixel.weights = by_centre ? pixel.visible.centre : weightsAt(pixel.visible, insideBarycentrics(barycentricsAt(pixel.visible, centre, view)));
 	pixel.displacement = 0.0;
 	pixel.to_eye = -normalize(pixelRay(centre, view).direction);
 	vec3 normal = HAS_SMOOTH_NORMALS && args.view_mode != VIEW_FACETS ? smoothNormal(pixel, view) : facetNormal(pixel.visible);
@@ -106,7 +106,8 @@ vec3 texturedColor(SurfacePixel pixel, uint texture_index, vec2 centre, View vie
 	vec2 uv = colorUvAt(base, pixel.weights);
 	vec2 uv_x = colorUvAt(base, weightsAt(pixel.visible, barycentricsAt(pixel.visible, centre + vec2(1.0, 0.0), view)));
 	vec2 uv_y = colorUvAt(base, weightsAt(pixel.visible, barycentricsAt(pixel.visible, centre + vec2(0.0, 1.0), view)));
-	return textureGrad(color_textures[nonuniformEXT(texture_index)], uv, uv_x - uv, uv_y - uv).rgb;
+	vec2 uv_here = args.centre_only != 0u ? colorUvAt(base, weightsAt(pixel.visible, barycentricsAt(pixel.visible, centre, view))) : uv;
+	return textureGrad(color_textures[nonuniformEXT(texture_index)], uv, uv_x - uv_here, uv_y - uv_here).rgb;
 }
 
 SurfaceColor materialColor(SurfacePixel pixel, vec2 centre, View view)
@@ -219,7 +220,7 @@ void main()
 	if (gl_LocalInvocationIndex == 0u)
 		covered = 0u;
 	barrier();
-	View view = args.inputs.view.at[0];
+	View view = frame_view;
 	if (gl_GlobalInvocationID.x < view.width_px && gl_GlobalInvocationID.y < view.height_px)
 		shadePixel(gl_GlobalInvocationID.xy, view);
 	barrier();

@@ -94,19 +94,30 @@ SHARED_FN bool countsFromFirst(DomainPoint p, DomainPoint q, uint edge_flags)
 	return p.u < q.u || (p.u == q.u && p.v < q.v);
 }
 
-// from +- (|to - from| * k + n / 2) / n, in magnitudes: signed division would truncate towards zero and open cracks.
-SHARED_FN uint domainAlong(uint from, uint to, uint k, uint n)
+// Multiplier of divideBy: floor(x / n) = (x * m) >> 32 for x below 2^28, since m n exceeds 2^32 by at most n <= 15.
+SHARED_FN uint divisionMultiplier(uint n) { return 0xffffffffu / n + 1u; }
+SHARED_FN uint divideBy(uint x, uint n, uint multiplier)
 {
-	return to >= from ? from + ((to - from) * k + n / 2u) / n : from - ((from - to) * k + n / 2u) / n;
+	return n == 1u ? x : uint((uint64_t(x) * uint64_t(multiplier)) >> 32);
+}
+
+// from +- (|to - from| * k + n / 2) / n, in magnitudes: signed division would truncate towards zero and open cracks.
+SHARED_FN uint domainAlong(uint from, uint to, uint k, uint n, uint multiplier)
+{
+	uint distance = max(from, to) - min(from, to);
+	uint offset = divideBy(distance * k + n / 2u, n, multiplier);
+	return to >= from ? from + offset : from - offset;
 }
 
 // The k-th of n points (0 <= k <= n <= 15) from p to q; the same integers for whoever asks from either end.
 SHARED_FN DomainPoint edgePoint(DomainPoint p, DomainPoint q, uint k, uint n, uint edge_flags)
 {
 	bool from_first = countsFromFirst(p, q, edge_flags);
+	uint steps = from_first ? k : n - k;
+	uint multiplier = divisionMultiplier(n);
 	DomainPoint point;
-	point.u = from_first ? domainAlong(p.u, q.u, k, n) : domainAlong(q.u, p.u, n - k, n);
-	point.v = from_first ? domainAlong(p.v, q.v, k, n) : domainAlong(q.v, p.v, n - k, n);
+	point.u = domainAlong(from_first ? p.u : q.u, from_first ? q.u : p.u, steps, n, multiplier);
+	point.v = domainAlong(from_first ? p.v : q.v, from_first ? q.v : p.v, steps, n, multiplier);
 	return point;
 }
 

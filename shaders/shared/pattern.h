@@ -78,24 +78,21 @@ SHARED_FN DomainPiece inPatternOrder(DomainPiece piece)
 }
 
 // Micro-vertex `index` of a piece: its corners, then the points of edges a, b, c, then the interior of the pattern.
+// Which edge is chosen first and one edge point computed after, so that the lanes of a subgroup stay together.
 SHARED_FN DomainPoint patternPoint(DomainPiece piece, uint index, PatternRange pattern, TableView table, uint edge_flags)
 {
-	if (index == 0u)
-		return piece.c0;
-	if (index == 1u)
-		return piece.c1;
-	if (index == 2u)
-		return piece.c2;
-	uint k = index - 2u;
-	if (k < piece.a)
-		return edgePoint(piece.c0, piece.c1, k, piece.a, edge_flags);
-	k -= piece.a - 1u;
-	if (k < piece.b)
-		return edgePoint(piece.c1, piece.c2, k, piece.b, edge_flags);
-	k -= piece.b - 1u;
-	if (k < piece.c)
-		return edgePoint(piece.c2, piece.c0, k, piece.c, edge_flags);
-	return interiorPoint(piece.c0, piece.c1, piece.c2, AT(uint, table.vertices, pattern.first_vertex + index));
+	uint first_b = 3u + piece.a - 1u;
+	uint first_c = first_b + piece.b - 1u;
+	uint first_interior = first_c + piece.c - 1u;
+	if (index >= first_interior)
+		return interiorPoint(piece.c0, piece.c1, piece.c2, AT(uint, table.vertices, pattern.first_vertex + index));
+	bool on_a = index == 0u || (index >= 3u && index < first_b);
+	bool on_b = index == 1u || (index >= first_b && index < first_c);
+	DomainPoint from = on_a ? piece.c0 : (on_b ? piece.c1 : piece.c2);
+	DomainPoint to = on_a ? piece.c1 : (on_b ? piece.c2 : piece.c0);
+	uint segments = on_a ? piece.a : (on_b ? piece.b : piece.c);
+	uint k = index < 3u ? 0u : index + 1u - (on_a ? 3u : (on_b ? first_b : first_c));
+	return edgePoint(from, to, k, segments, edge_flags);
 }
 
 // The three micro-vertices of micro-triangle `index`, in the base triangle's winding.

@@ -1,4 +1,4 @@
-// raster_inputs.h: what every producer of visibility reads to turn list entries into micro-vertices.
+// raster_inputs.h: what every producer of visibility reads, beside lib/frame_data.glsl, to turn list entries into micro-vertices.
 #ifndef TESSERA_SHARED_RASTER_INPUTS_H
 #define TESSERA_SHARED_RASTER_INPUTS_H
 #include "shared/pattern.h"
@@ -9,8 +9,6 @@ SHARED_BEGIN
 
 struct RasterInputs
 {
-	GPU_PTR(View) view;
-	GPU_PTR(Surface) surface;
 	GPU_PTR(InstanceRecord) instances;
 	GPU_PTR(ClusterRecord) clusters;
 	GPU_PTR(ClusterRef) visible_clusters;
@@ -18,7 +16,7 @@ struct RasterInputs
 	GPU_PTR(uint) material_flags;            // MATERIAL_*, per material
 	TableView table;
 };
-SHARED_LAYOUT(RasterInputs, 80, table, 56)
+SHARED_LAYOUT(RasterInputs, 64, table, 40)
 
 #define MATERIAL_DOUBLE_SIDED 1u
 

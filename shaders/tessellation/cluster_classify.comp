@@ -12,6 +12,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/features.glsl"
+#include "lib/frame_data.glsl"
 #include "tessellation/cluster_classify.h"
 #include "lib/classify.glsl"
 #include "lib/full_clusters.glsl"
@@ -98,7 +99,7 @@ void main()
 	{
 		ClusterRef ref = args.visible_clusters.at[index];
 		ClusterRecord cluster = args.clusters.at[ref.cluster];
-		View view = args.view.at[0];
+		View view = frame_view;
 		if (gl_LocalInvocationIndex == 0u)
 		{
 			part_count = 0u;

@@ -9,7 +9,6 @@ SHARED_BEGIN
 
 struct ClusterClassifyArgs
 {
-	GPU_PTR(View) view;
 	GPU_PTR(InstanceRecord) instances;
 	GPU_PTR(ClusterRecord) clusters;
 	GPU_PTR(vec3) positions;
@@ -22,7 +21,7 @@ struct ClusterClassifyArgs
 	GPU_PTR(DomainTriangle) part_triangles;
 	FactorRule rule;
 };
-SHARED_LAYOUT(ClusterClassifyArgs, 96, rule, 88)
+SHARED_LAYOUT(ClusterClassifyArgs, 88, rule, 80)
 
 SHARED_END
 

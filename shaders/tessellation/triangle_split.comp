@@ -11,6 +11,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/features.glsl"
+#include "lib/frame_data.glsl"
 #include "tessellation/triangle_split.h"
 #include "lib/classify.glsl"
 #include "lib/lists.glsl"
@@ -101,7 +102,7 @@ void main()
 	{
 		DomainPiece piece = unpackTriangle(args.split_triangles.at[index]);
 		ClusterRef ref = args.visible_clusters.at[piece.visible_cluster];
-		View view = args.view.at[0];
+		View view = frame_view;
 		PatternRange pattern = args.table.patterns.at[patternIndex(piece.a, piece.b, piece.c)];
 		if (gl_LocalInvocationIndex == 0u)
 		{

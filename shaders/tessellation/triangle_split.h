@@ -10,7 +10,6 @@ SHARED_BEGIN
 
 struct TriangleSplitArgs
 {
-	GPU_PTR(View) view;
 	GPU_PTR(InstanceRecord) instances;
 	GPU_PTR(ClusterRecord) clusters;
 	GPU_PTR(vec3) positions;
@@ -25,7 +24,7 @@ struct TriangleSplitArgs
 	uint level;       // which level of split_triangles is taken apart
 	uint last_level;  // 1: what still exceeds the table after this level has nowhere to go (the frame is planned again)
 };
-SHARED_LAYOUT(TriangleSplitArgs, 120, last_level, 116)
+SHARED_LAYOUT(TriangleSplitArgs, 112, last_level, 108)
 
 SHARED_END
 

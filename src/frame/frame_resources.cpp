@@ -292,7 +292,11 @@ Status FrameResources::prepare(const FramePlan& plan, const PlanInput& input)
 		lists_changed |= findList(resource.name) != nullptr;
 	}
 	if (!has("surface"))
+	{
 		TRY(makeSurface(plan));
+		bindless_->writeUniform(4, buffer("surface").handle());
+		bindless_->writeUniform(3, buffer("view").handle());
+	}
 	if (!has("shading"))
 		TRY(makeShadingData(plan));
 	return lists_changed ? makeHeads() : Status{};
@@ -325,7 +329,7 @@ Status FrameResources::writeView(const View& view, uint32_t round)
 	barrier.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
 	barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
 	barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-	barrier.dstAccessMask = VK_ACCESS_2_SHADER_READ_BIT;
+	barrier.dstAccessMask = VK_ACCESS_2_UNIFORM_READ_BIT;
 	VkDependencyInfo info = { VK_STRUCTURE_TYPE_DEPENDENCY_INFO };
 	info.memoryBarrierCount = 1;
 	info.pMemoryBarriers = &barrier;

@@ -20,7 +20,7 @@ struct StageAccess
 
 StageAccess stageAccessOf(Access access)
 {
-	constexpr VkAccessFlags2 kRead = VK_ACCESS_2_SHADER_READ_BIT;
+	constexpr VkAccessFlags2 kRead = VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT;
 	constexpr VkAccessFlags2 kWrite = VK_ACCESS_2_SHADER_WRITE_BIT;
 	switch (access)
 	{

@@ -142,6 +142,7 @@ private:
 		input_.view.factors_above_one = bound.above_one;
 		input_.view.split_levels = bound.split_levels > 0 || levels_needed_ > 0 ? std::max(bound.split_levels, levels_needed_) : 0;
 		input_.view.rounds = attempt.rounds;
+		input_.view.rate_px = grantedRate(attempt);
 		return planFrame(passes_, resourceDescs(), kWanted, input_);
 	}
 

@@ -72,14 +72,16 @@ Result<std::unique_ptr<BindlessSet>> BindlessSet::create(Device& device)
 		{ 0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kMaxTextures, VK_SHADER_STAGE_ALL, nullptr },
 		{ 1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_ALL, nullptr },
 		{ 2, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_ALL, nullptr },
+		{ 3, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_ALL, nullptr },
+		{ 4, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_ALL, nullptr },
 	};
 	const VkDescriptorBindingFlags partial = VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT;
-	const VkDescriptorBindingFlags flags[] = { partial, partial, partial };
+	const VkDescriptorBindingFlags flags[] = { partial, partial, partial, partial, partial };
 	VkDescriptorSetLayoutBindingFlagsCreateInfo flags_info = { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO };
-	flags_info.bindingCount = 3;
+	flags_info.bindingCount = 5;
 	flags_info.pBindingFlags = flags;
 	VkDescriptorSetLayoutCreateInfo layout_info = { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, &flags_info };
-	layout_info.bindingCount = 3;
+	layout_info.bindingCount = 5;
 	layout_info.pBindings = bindings;
 	VK_TRY(vkCreateDescriptorSetLayout(device.handle, &layout_info, nullptr, &set->set_layout_), "creating the descriptor set layout");
 
@@ -91,10 +93,12 @@ Result<std::unique_ptr<BindlessSet>> BindlessSet::create(Device& device)
 	pipeline_info.pPushConstantRanges = &range;
 	VK_TRY(vkCreatePipelineLayout(device.handle, &pipeline_info, nullptr, &set->pipeline_layout_), "creating the pipeline layout");
 
-	const VkDescriptorPoolSize sizes[] = { { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kMaxTextures }, { VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 2 } };
+	const VkDescriptorPoolSize sizes[] = { { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kMaxTextures },
+										   { VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 2 },
+										   { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 } };
 	VkDescriptorPoolCreateInfo pool_info = { VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO };
 	pool_info.maxSets = 1;
-	pool_info.poolSizeCount = 2;
+	pool_info.poolSizeCount = 3;
 	pool_info.pPoolSizes = sizes;
 	VK_TRY(vkCreateDescriptorPool(device.handle, &pool_info, nullptr, &set->pool_), "creating the descriptor pool");
 	VkDescriptorSetAllocateInfo allocate = { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO };
@@ -133,6 +137,18 @@ void BindlessSet::writeImage(uint32_t binding, VkImageView view)
 	write.descriptorCount = 1;
 	write.descriptorType = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
 	write.pImageInfo = &image;
+	vkUpdateDescriptorSets(device_.handle, 1, &write, 0, nullptr);
+}
+
+void BindlessSet::writeUniform(uint32_t binding, VkBuffer buffer)
+{
+	const VkDescriptorBufferInfo info = { buffer, 0, VK_WHOLE_SIZE };
+	VkWriteDescriptorSet write = { VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET };
+	write.dstSet = set_;
+	write.dstBinding = binding;
+	write.descriptorCount = 1;
+	write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+	write.pBufferInfo = &info;
 	vkUpdateDescriptorSets(device_.handle, 1, &write, 0, nullptr);
 }
 

@@ -15,7 +15,7 @@ constexpr uint32_t kMaxTextures = 1024;
 // Specialisation constants by id; a shader uses those it declares.
 using Constants = std::map<uint32_t, uint32_t>;
 
-// The bindless set: binding 0 colour textures, 1 visibility payload, 2 visibility depth.
+// The bindless set: binding 0 colour textures, 1 visibility payload, 2 visibility depth, 3 View, 4 Surface.
 class BindlessSet
 {
 public:
@@ -26,6 +26,7 @@ public:
 
 	void writeTexture(uint32_t index, VkImageView view, VkSampler sampler);
 	void writeImage(uint32_t binding, VkImageView view);
+	void writeUniform(uint32_t binding, VkBuffer buffer);
 	VkPipelineLayout layout() const { return pipeline_layout_; }
 	VkDescriptorSet set() const { return set_; }
 

@@ -11,7 +11,8 @@ Result<Buffer> Buffer::create(Device& device, uint64_t bytes, MemoryKind kind, c
 	VkBufferCreateInfo info = { VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO };
 	info.size = std::max<uint64_t>(16, (bytes + 15) / 16 * 16);
 	info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-				 VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+				 VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
+				 VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
 	Buffer buffer;
 	TRY_ASSIGN(buffer.allocation_, allocateBuffer(device.allocator, info, kind, name));
 	buffer.device_ = &device;

@@ -81,8 +81,6 @@ enum class ReadsParts : bool
 inline RasterInputs rasterInputs(const PassContext& pass, ReadsParts parts = ReadsParts::Yes)
 {
 	RasterInputs inputs = {};
-	inputs.view = pass.address("view");
-	inputs.surface = pass.address("surface");
 	inputs.instances = pass.address("instances");
 	inputs.clusters = pass.address("clusters");
 	inputs.visible_clusters = pass.address("visible_clusters");

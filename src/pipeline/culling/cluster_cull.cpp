@@ -21,7 +21,6 @@ static constexpr Use kUses[] = {
 static void record(PassContext& pass)
 {
 	ClusterCullArgs args = {};
-	args.view = pass.address("view");
 	args.instances = pass.address("instances");
 	args.clusters = pass.address("clusters");
 	args.cluster_bounds = pass.address("cluster_bounds");

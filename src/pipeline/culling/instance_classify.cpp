@@ -15,7 +15,6 @@ static constexpr Use kUses[] = {
 static void record(PassContext& pass)
 {
 	InstanceClassifyArgs args = {};
-	args.view = pass.address("view");
 	args.instances = pass.address("instances");
 	args.meshes = pass.address("meshes");
 	args.mesh_bounds = pass.address("mesh_bounds");

@@ -18,7 +18,6 @@ static constexpr Use kUses[] = {
 static void record(PassContext& pass)
 {
 	ClusterClassifyArgs args = {};
-	args.view = pass.address("view");
 	args.instances = pass.address("instances");
 	args.clusters = pass.address("clusters");
 	args.positions = pass.address("positions");

@@ -22,7 +22,6 @@ static uint32_t levels(const PlanInput& input)
 static void record(PassContext& pass)
 {
 	TriangleSplitArgs args = {};
-	args.view = pass.address("view");
 	args.instances = pass.address("instances");
 	args.clusters = pass.address("clusters");
 	args.positions = pass.address("positions");

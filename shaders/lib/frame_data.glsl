@@ -1,0 +1,10 @@
+// What every workgroup of a frame reads alike: uniform buffers, so that devices with constant memory serve it from there.
+#ifndef TESSERA_LIB_FRAME_DATA
+#define TESSERA_LIB_FRAME_DATA
+#include "shared/geometry.h"
+#include "shared/view.h"
+
+layout(set = 0, binding = 3, scalar) uniform FrameView { View frame_view; };
+layout(set = 0, binding = 4, scalar) uniform FrameSurface { Surface frame_surface; };
+
+#endif
