@@ -332,10 +332,10 @@ TEST(sharedFloatCode, isNeverContractedAndUsesOnlyExactOperations)
 	EXPECT_EQ(joined(check.problems), "");
 	EXPECT_GT(check.operations, 200u);
 	for (const char* name :
-		 { "edgeHasAtLeast", "viewEdge",       "weighted",     "weightedVec3",        "normalized",    "placed",        "affineRow",
-		   "clipPosition",   "cameraRelative", "scaledRow",    "rateDistanceSquared", "placementOf",   "domainWeights", "foldCoordinate",
-		   "texelPair",      "texelHeight",    "blendHeights", "levelHeight",         "roughLog2",     "heightLevel",   "heightAt",
-		   "displacementAt", "displacedPoint", "surfacePoint", "surfaceVertex",       "seamEdgeSource" })
+		 { "edgeHasAtLeast", "viewEdge",       "weighted",     "weightedVec3",        "normalized",     "placed",        "affineRow",
+		   "clipPosition",   "cameraRelative", "scaledRow",    "rateDistanceSquared", "placementOf",    "domainWeights", "foldCoordinate",
+		   "texelPair",      "texelHeight",    "blendHeights", "levelHeight",         "roughLog2",      "heightLevel",   "heightAt",
+		   "displacementAt", "displacedPoint", "displaced",    "sampleAtPoint",       "sampleAtVertex", "seamEdgeSource" })
 		EXPECT_TRUE(check.functions.count(name)) << name << ": no shader has it, so it was not checked";
 }
 

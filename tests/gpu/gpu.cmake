@@ -1,0 +1,13 @@
+# The device's stages against the CPU reference, pictures against properties and stored ones. Run on the default Vulkan device.
+set(here ${CMAKE_CURRENT_LIST_DIR})
+add_library(gpu_test_base STATIC ${here}/gpu_test.cpp ${here}/visibility.cpp ${here}/../cpu/build_test_scenes.cpp)
+target_link_libraries(gpu_test_base PUBLIC tessera_pipeline tessera_reference tessera_output GTest::gtest_main)
+target_include_directories(gpu_test_base PUBLIC ${here}/..)
+target_compile_definitions(gpu_test_base PUBLIC TESSERA_SOURCE_ROOT="${PROJECT_SOURCE_DIR}")
+
+foreach(name IN ITEMS picture_test raster_test tessellation_test)
+  add_executable(gpu_${name} ${here}/${name}.cpp)
+  target_link_libraries(gpu_${name} PRIVATE gpu_test_base)
+  add_dependencies(gpu_${name} tessera_shaders)
+  gtest_discover_tests(gpu_${name} PROPERTIES LABELS gpu)
+endforeach()
