@@ -52,7 +52,7 @@ struct SceneTraits
 	uint32_t nonmanifold_edges = 0;  // welded edges with more than two triangles
 	uint32_t boundary_edges = 0;
 	bool has_displacement = false;  // some material displaces by something other than 0
-	bool has_height_u8 = false;          // formats of the height maps
+	bool has_height_u8 = false;     // formats of the height maps
 	bool has_height_u16 = false;
 	bool has_height_f32 = false;
 	bool has_color_textures = false;

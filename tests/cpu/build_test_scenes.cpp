@@ -1,6 +1,6 @@
 #include "build_test_scenes.h"
 
-#include "scene/height_map.h"
+#include "scene/build/height_map.h"
 
 #include <cstring>
 #include <numbers>

@@ -1,6 +1,6 @@
 // The built-in scenes: the same bits everywhere, closed where they say so, valid as ImportedScene promises.
 #include "scene/builtin.h"
-#include "scene/builtin_noise.h"
+#include "scene/builtin/noise.h"
 
 #include <gtest/gtest.h>
 

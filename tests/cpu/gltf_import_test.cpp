@@ -1,6 +1,6 @@
 // Geometry of glTF files: topology, accessors, values.
 #include "gltf_file.h"
-#include "scene/gltf_topology.h"
+#include "scene/gltf/topology.h"
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Height maps: mips are area means, packing is what the shared reader reads, ranges contain all reads and little else.
 #include "build_test_scenes.h"
-#include "scene/height_map.h"
+#include "scene/build/height_map.h"
 
 #include <gtest/gtest.h>
 

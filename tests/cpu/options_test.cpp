@@ -231,7 +231,7 @@ TEST(options, wrongValuesAreAnsweredWithRightOnes)
 		for (const std::string& part : parts)
 			EXPECT_NE(message.find(part), std::string::npos) << part << " is not in: " << message;
 	};
-	expect({ "--raster", "soft" }, { "--raster soft", "auto, mesh, indexed" });
+	expect({ "--raster", "voxels" }, { "--raster voxels", "auto, soft, mesh, indexed" });
 	expect({ "--metric", "curvature" }, { "--metric curvature", "edge is right" });
 	expect({ "--view", "x" }, { "--view x", "shaded", "materials" });
 	expect({ "--shading", "x" }, { "smooth, flat" });

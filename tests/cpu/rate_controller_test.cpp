@@ -54,6 +54,14 @@ Search runNew(const Demand& demand)
 	return run(controller, demand);
 }
 
+// Falls with the square of the rate from `start`, but never below `floor` before `floor_end`.
+Demand plateau(double start, double floor, uint32_t floor_end)
+{
+	return [=](uint32_t j) {
+		return j < floor_end ? std::max(floor, start * std::exp2(-double(j) / 8)) : 0.5;
+	};
+}
+
 Demand randomMonotone(std::mt19937& random)
 {
 	const double start = std::exp2(std::uniform_real_distribution(-2.0, 20.0)(random));
@@ -109,6 +117,7 @@ TEST(rateController, forAMonotoneDemandTheSmallestFittingJIsFound)
 		{
 			ASSERT_GT(demand(search.accepted.coarsening - 1), 1);
 		}
+		ASSERT_LE(search.attempts, 24u);
 	}
 }
 
@@ -128,6 +137,17 @@ TEST(rateController, forAnyDemandTheAcceptedJFitsAndIsTheSmallestFoundToFit)
 		ASSERT_TRUE(search.fitted.count(j));
 		ASSERT_EQ(*search.fitted.begin(), j);
 		ASSERT_TRUE(j == 0 || search.refused.count(j - 1));
+		ASSERT_LE(search.attempts, 24u);
+	}
+}
+
+TEST(rateController, aDemandThatHardlyFallsDoesNotTakeForever)
+{
+	for (const uint32_t end : { 20u, 60u, 120u, 300u, 639u })
+	{
+		const Search search = runNew(plateau(1.02, 1.01, end));
+		EXPECT_EQ(search.accepted.coarsening, end);
+		EXPECT_LE(search.attempts, 24u) << end;
 	}
 }
 
@@ -138,8 +158,9 @@ TEST(rateController, whatNoRateRelievesEndsWithEveryFactorOne)
 	const Search search = run(
 		controller, [](uint32_t) { return 1000.0; }, 0.5);
 	EXPECT_TRUE(search.accepted.every_factor_one);
+	EXPECT_TRUE(search.refused.count(RateController::kMostCoarsening - 1)) << "every j comes before that";
 	EXPECT_EQ(search.accepted.rounds, 1u);
-	EXPECT_LE(search.attempts, 30u);
+	EXPECT_LE(search.attempts, 24u);
 }
 
 TEST(rateController, aStillCameraKeepsItsJAndDrawsOnce)

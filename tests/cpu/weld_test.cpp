@@ -1,8 +1,8 @@
 // Welding and what hangs on it: fans, densities, attributes.
 #include "build_test_scenes.h"
-#include "scene/color_texture.h"
-#include "scene/mesh_vertices.h"
-#include "scene/weld.h"
+#include "scene/build/color_texture.h"
+#include "scene/build/mesh_vertices.h"
+#include "scene/build/weld.h"
 
 #include <gtest/gtest.h>
 

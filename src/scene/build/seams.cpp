@@ -1,0 +1,128 @@
+#include "scene/build/seams.h"
+
+#include "scene/build/disjoint_sets.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace tessera
+{
+
+namespace
+{
+
+// The map of the primitive that a position in a list of ranges lies in. `firsts`: first_triangles or first_vertices.
+uint32_t mapAt(const std::vector<uint32_t>& firsts, const MeshVertices& vertices, uint32_t index)
+{
+	const auto after = std::upper_bound(firsts.begin(), firsts.end(), index);
+	return vertices.height_maps[size_t(after - firsts.begin()) - 1];
+}
+
+SeamEdge edgeValues(uint32_t first_vertex, uint32_t second_vertex, uint32_t height_map, const MeshVertices& vertices)
+{
+	SeamEdge values;
+	values.uv_first = vertices.vertices[first_vertex].uv;
+	values.uv_second = vertices.vertices[second_vertex].uv;
+	values.density_first = vertices.densities[first_vertex];
+	values.density_second = vertices.densities[second_vertex];
+	values.height_map = height_map;
+	return values;
+}
+
+// What `edge` itself says, with its ends in the order of `like`, an edge with the same ends.
+SeamEdge valuesInOrderOf(uint32_t edge, uint32_t like, const MeshWeld& weld, const MeshCorners& corners, const MeshVertices& vertices)
+{
+	uint32_t first = edge, second = nextCorner(edge);
+	if (weld.corner_welds[first] != weld.corner_welds[like])
+		std::swap(first, second);
+	const uint32_t height_map = mapAt(corners.first_triangles, vertices, edge / 3);
+	return edgeValues(vertices.corner_vertices[first], vertices.corner_vertices[second], height_map, vertices);
+}
+
+bool readAlike(uint32_t edge, uint32_t other, const MeshWeld& weld, const MeshCorners& corners, const MeshVertices& vertices)
+{
+	const SeamEdge own = valuesInOrderOf(edge, edge, weld, corners, vertices);
+	const SeamEdge others = valuesInOrderOf(other, edge, weld, corners, vertices);
+	return std::memcmp(&own, &others, sizeof own) == 0;
+}
+
+// Per triangle: the first triangle of its chart.
+std::vector<uint32_t> findCharts(const MeshCorners& corners, const MeshWeld& weld, const MeshVertices& vertices)
+{
+	DisjointSets sets(corners.triangleCount());
+	for (uint32_t edge = 0; edge < weld.edge_owners.size(); ++edge)
+	{
+		const uint32_t other = weld.edge_owners[edge];
+		if (other != edge && readAlike(edge, other, weld, corners, vertices))
+			sets.unite(edge / 3, other / 3);
+	}
+	std::vector<uint32_t> charts(corners.triangleCount());
+	for (uint32_t triangle = 0; triangle < charts.size(); ++triangle)
+		charts[triangle] = sets.root(triangle);
+	return charts;
+}
+
+// Of items 0..count-1 in groups, the one of each group whose triangle's chart begins first, then the lowest; per group.
+template <typename GroupOf>
+std::vector<uint32_t> firstByChart(uint32_t count, size_t groups, const std::vector<uint32_t>& charts, GroupOf groupOf)
+{
+	std::vector<uint32_t> firsts(groups, NO_INDEX);
+	for (uint32_t item = 0; item < count; ++item)
+	{
+		uint32_t& first = firsts[groupOf(item)];
+		if (first == NO_INDEX || charts[item / 3] < charts[first / 3])
+			first = item;
+	}
+	return firsts;
+}
+
+}  // namespace
+
+SeamEdge seamEdge(uint32_t edge, const MeshSeams& seams, const MeshWeld& weld, const MeshCorners& corners, const MeshVertices& vertices)
+{
+	return valuesInOrderOf(seams.edge_owners[edge], edge, weld, corners, vertices);
+}
+
+SeamCorner seamCorner(uint32_t owner_vertex, const MeshVertices& vertices)
+{
+	SeamCorner corner;
+	corner.uv = vertices.vertices[owner_vertex].uv;
+	corner.density = vertices.densities[owner_vertex];
+	corner.height_map = mapAt(vertices.first_vertices, vertices, owner_vertex);
+	return corner;
+}
+
+MeshSeams findSeams(const MeshCorners& corners, const MeshWeld& weld, const MeshVertices& vertices)
+{
+	MeshSeams seams;
+	const uint32_t edge_count = uint32_t(weld.edge_owners.size());
+	const std::vector<uint32_t> charts = findCharts(corners, weld, vertices);
+	const auto edge_firsts = firstByChart(edge_count, edge_count, charts, [&](uint32_t edge) { return weld.edge_owners[edge]; });
+	const auto corner_firsts =
+		firstByChart(edge_count, weld.first_corners.size(), charts, [&](uint32_t corner) { return weld.corner_welds[corner]; });
+
+	seams.edge_flags.resize(corners.triangleCount());
+	seams.edge_owners.resize(edge_count);
+	for (uint32_t edge = 0; edge < edge_count; ++edge)
+	{
+		const uint32_t owner = seams.edge_owners[edge] = edge_firsts[weld.edge_owners[edge]];
+		if (readAlike(edge, owner, weld, corners, vertices))
+			continue;
+		seams.edge_flags[edge / 3] |= uint8_t(1u << (edge % 3));
+		++seams.seam_edges;
+	}
+
+	seams.corner_owners.resize(vertices.vertices.size());
+	for (uint32_t vertex = 0; vertex < seams.corner_owners.size(); ++vertex)
+	{
+		const uint32_t owner = vertices.corner_vertices[corner_firsts[vertices.vertices[vertex].weld]];
+		const SeamCorner own = seamCorner(vertex, vertices);
+		const SeamCorner owners = seamCorner(owner, vertices);
+		const bool differs = std::memcmp(&own, &owners, sizeof own) != 0;
+		seams.corner_owners[vertex] = differs ? owner : vertex;
+		seams.seam_corners += differs;
+	}
+	return seams;
+}
+
+}  // namespace tessera
