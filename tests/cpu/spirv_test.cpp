@@ -130,7 +130,7 @@ std::vector<HostLayout> hostLayouts()
 		LAYOUT(3, TableView, patterns, vertices, triangles),
 		LAYOUT(1, DomainTriangle, words),
 		LAYOUT(8, DisplacedBounds, low, high, direction_low, direction_high, reach_low, reach_high, cone_axis, cone_cutoff),
-		LAYOUT(8, RasterInputs, view, surface, instances, clusters, visible_clusters, part_triangles, material_flags, table),
+		LAYOUT(6, RasterInputs, instances, clusters, visible_clusters, part_triangles, material_flags, table),
 		LAYOUT(5, MaterialRecord, base_color, emissive, metallic, roughness, color_texture),
 		LAYOUT(4, ShadingData, normals, color_uvs, colors, materials),
 		LAYOUT(5, IndexedDraw, index_count, instance_count, first_index, vertex_offset, first_instance),

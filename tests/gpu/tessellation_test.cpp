@@ -104,7 +104,7 @@ TEST_F(tessellation, builtInScenesAreClassifiedAsByTheReferenceFromCoarseToFine)
 
 TEST_F(tessellation, sampleFilesAreClassifiedAsByTheReference)
 {
-	for (const char* name : { "gltf/displaced_quad.glb", "gltf/hierarchy.gltf", "sphere/sphere.gltf", "terrain/terrain.gltf" })
+	for (const char* name : { "gltf/displaced_quad.glb", "gltf/hierarchy.gltf", "sphere.gltf", "terrain.gltf" })
 	{
 		const std::filesystem::path root = TESSERA_SOURCE_ROOT;
 		if (!std::filesystem::exists(root / "tests/data" / name) && !std::filesystem::exists(root / "bench/scenes" / name))
