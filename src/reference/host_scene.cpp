@@ -2,7 +2,7 @@
 
 #include "base/check.h"
 #include "scene/camera.h"
-#include "scene/height_map.h"
+#include "scene/build/height_map.h"
 
 namespace tessera::reference
 {
