@@ -1,7 +1,7 @@
 // instance_classify: cull instances by their displaced bounds; cut what is left into groups of clusters.
 //
 //   in   instances        InstanceRecord[]
-//   in   mesh_bounds      DisplacedBounds[]    only with culling
+//   in   mesh_bounds      DisplacedBounds[]    only with frustum culling
 //   out  cluster_groups   ClusterGroup[]       up to CLUSTER_GROUP_SIZE clusters of one visible instance: to cluster_cull
 //
 // One thread takes one instance at a time. A frame drawn in several rounds (C2) takes every n-th group per round.
@@ -18,7 +18,7 @@ layout(push_constant, scalar) uniform Args { InstanceClassifyArgs args; };
 
 bool isVisible(InstanceRecord instance)
 {
-	if (!HAS_CULLING)
+	if (!HAS_CULLING || uint64_t(args.mesh_bounds) == 0ul)
 		return true;
 	View view = frame_view;
 	Box box = displacedBox(args.mesh_bounds.at[instance.mesh], view.displacement_scale);

@@ -11,7 +11,7 @@ struct InstanceClassifyArgs
 {
 	GPU_PTR(InstanceRecord) instances;
 	GPU_PTR(MeshRecord) meshes;
-	GPU_PTR(DisplacedBounds) mesh_bounds;  // 0 without culling
+	GPU_PTR(DisplacedBounds) mesh_bounds;  // 0 without frustum culling
 	GPU_PTR(ListHead) heads;
 	GPU_PTR(ClusterGroup) cluster_groups;
 	uint instance_count;

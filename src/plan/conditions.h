@@ -43,6 +43,7 @@ inline constexpr Condition kDoesNotTessellate = { [](const PlanInput& input) { r
 inline constexpr Condition kSplits = { [](const PlanInput& input) { return kTessellates.holds(input) && input.view.split_levels > 0; },
 									   "no edge can exceed the table at this rate and camera" };
 inline constexpr Condition kCulls = { [](const PlanInput& input) { return input.options.cull.any(); }, "culling is off" };
+inline constexpr Condition kFrustumCulls = { [](const PlanInput& input) { return input.options.cull.frustum; }, "frustum culling is off" };
 inline constexpr Condition kSoft = { [](const PlanInput& input) { return usesSoft(input) && input.device.buffer_atomics_64; },
 									 "another producer of visibility is chosen, or the device lacks 64-bit buffer atomics" };
 inline constexpr Condition kMesh = { [](const PlanInput& input) { return usesMesh(input) && input.device.mesh_shader; },

@@ -3,6 +3,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <random>
+
 namespace tessera::test
 {
 
@@ -221,6 +223,124 @@ TEST_F(raster, everyKindOfCullingAloneChangesNoPixelFromWithin)
 			EXPECT_EQ(difference.others, 0u) << difference.first;
 			EXPECT_LE(difference.ties, difference.covered / 500 + 1);
 		}
+	}
+}
+
+TEST_F(raster, clustersThatShowTheirBackAreCulledAndNoOthers)
+{
+	// Plain spheres: round, mirrored, flattened and turned.
+	ImportedScene spheres = sphereScene(24, 48, TexelFormat::U8, Wrap::Repeat);
+	spheres.materials[0].displacement.reset();
+	const auto place = [&](dvec3 at, dvec3 scale) {
+		spheres.instances.push_back({ 0, glm::rotate(glm::scale(glm::translate(dmat4(1), at), scale), 0.5, dvec3(1, 2, 1)) });
+	};
+	place(dvec3(3, 0, 0), dvec3(-1, 1, 1));
+	place(dvec3(0, 3, 0), dvec3(1, 0.2, 1.5));
+	place(dvec3(-3, 0, 0), dvec3(-0.3, -1, -1));
+	const BuildOptions small_clusters = { 24, 16 };
+	const GpuScene single(spheres, defaultTable(), small_clusters);
+	for (Material& material : spheres.materials)
+		material.double_sided = true;
+	const GpuScene twofold(spheres, defaultTable(), small_clusters);
+	for (const dvec3 eye : { dvec3(2, 3, 9), dvec3(-1.6, 1.4, 0.3), dvec3(0.1, 0.2, 0), dvec3(3, 0.4, 1.05), dvec3(-9, -4, 1) })
+	{
+		const Camera camera = squareCamera(eye, dvec3(0.2, 0.3, 0.1));
+		RenderOptions options = smallOptions(10);
+		options.cull = { false, true };
+		const GpuFrame culled = drawFrame(single, options, camera), kept = drawFrame(twofold, options, camera);
+		options.cull = { false, false };
+		const GpuFrame whole = drawFrame(single, options, camera);
+		const VisibilityDifference difference = compareVisibility(visibilityOf(culled), visibilityOf(whole), 160);
+		EXPECT_EQ(difference.others, 0u) << difference.first;
+		EXPECT_LT(culled.result.counts.visible_clusters * 10, whole.result.counts.visible_clusters * 8) << "too little was culled";
+		EXPECT_EQ(kept.result.counts.visible_clusters, whole.result.counts.visible_clusters) << "two-sided materials have no back";
+	}
+}
+
+// Bumpy sheets seen from behind and from near by: some triangles of a cluster show their front, others their back.
+TEST_F(raster, bumpySheetsLoseNothingToBackfaceCulling)
+{
+	constexpr uint32_t kSide = 16;
+	std::mt19937 random(5);
+	const auto unit = [&] {
+		return double(random()) / 4294967296.0;
+	};
+	size_t fewer = 0;
+	for (const double bump : { 0.01, 0.1, 0.5 })
+	{
+		ImportedScene sheet;
+		Primitive primitive;
+		primitive.material = addPlain(sheet, "plain");
+		for (uint32_t j = 0; j <= kSide; ++j)
+			for (uint32_t i = 0; i <= kSide; ++i)
+				addVertex(primitive, vec3(float(i), float(j), float(unit() * bump)), vec3(0, 0, 1), vec2(0));
+		for (uint32_t j = 0; j < kSide; ++j)
+			for (uint32_t i = 0; i < kSide; ++i)
+			{
+				const uint32_t a = j * (kSide + 1) + i, b = a + 1, c = a + kSide + 1, d = c + 1;
+				addTriangle(primitive, a, b, d);
+				addTriangle(primitive, a, d, c);
+			}
+		addPlacedMesh(sheet, { primitive });
+		const GpuScene scene(sheet, defaultTable(), { 24, 16 });
+		RenderOptions options = smallOptions(0);
+		options.cull = { false, true };
+		GpuFrame culled = drawFrame(scene, options);
+		options.cull = { false, false };
+		GpuFrame whole = drawFrame(scene, options);
+		for (int i = 0; i < 60; ++i)
+		{
+			const dvec3 eye(unit() * kSide, unit() * kSide, unit() * 8 - 7);
+			const Camera camera = squareCamera(eye, dvec3(unit() * kSide, unit() * kSide, bump / 2));
+			drawAgain(culled, camera);
+			drawAgain(whole, camera);
+			const VisibilityDifference difference = compareVisibility(visibilityOf(culled), visibilityOf(whole), 160);
+			ASSERT_EQ(difference.others, 0u) << "camera " << i << ": " << difference.first;
+			fewer += culled.result.counts.visible_clusters < whole.result.counts.visible_clusters;
+		}
+	}
+	EXPECT_GT(fewer, 30u);
+}
+
+// Through a narrow view, most of what a cluster can reach is what its height map says: the base triangles lie elsewhere.
+TEST_F(raster, peaksInNarrowViewsAreNotLostToCulling)
+{
+	const BuildOptions small_clusters = { 16, 8 };
+	std::vector<std::unique_ptr<GpuScene>> scenes;
+	for (const ImportedScene& imported : { cubeScene(4), sphereScene(12, 24, TexelFormat::U16, Wrap::Repeat), coarseSphereScene() })
+		scenes.push_back(std::make_unique<GpuScene>(imported, defaultTable(), small_clusters));
+	for (const auto& scene : scenes)
+	{
+		RenderOptions options = smallOptions(12);
+		options.displacement_scale = 4;
+		GpuFrame culled = drawFrame(*scene, options);
+		options.cull = { false, false };
+		GpuFrame whole = drawFrame(*scene, options);
+		options.rate = 2;
+		const GpuFrame fine = drawFrame(*scene, options);
+		const std::vector<reference::ReferencePiece>& parts = fine.parts;
+		ASSERT_FALSE(parts.empty());
+		size_t fewer = 0;
+		for (size_t i = 0; i < 40; ++i)
+		{
+			// A vertex that sticks out, just inside a side of the picture, seen along the surface.
+			const reference::ReferencePiece& part = parts[i * 7919 % parts.size()];
+			const reference::MicroVertex vertex = reference::evaluatePart(scene->host, fine.view(), part).vertices.front();
+			const dvec3 peak(vertex.displaced), out = glm::normalize(peak - dvec3(vertex.base) + dvec3(1e-6));
+			const dvec3 along = glm::normalize(glm::cross(out, dvec3(0.3, i % 2 ? 1 : -1, 0.5)));
+			Camera camera;
+			camera.fov_y_rad = 0.03;
+			camera.up = i % 4 < 2 ? out : along + glm::cross(out, along);
+			camera.eye = peak + along * 20.0;
+			camera.target = peak + out * (20 * 0.0145);
+			drawAgain(culled, camera);
+			drawAgain(whole, camera);
+			const VisibilityDifference difference = compareVisibility(visibilityOf(culled), visibilityOf(whole), 160);
+			ASSERT_EQ(difference.others, 0u) << "camera " << i << ": " << difference.first;
+			ASSERT_LE(difference.ties, difference.covered / 500 + 1) << "camera " << i;
+			fewer += culled.result.counts.visible_clusters < whole.result.counts.visible_clusters;
+		}
+		EXPECT_TRUE(fewer > 10 || scene->built.clusters.size() < 4) << "nothing was culled";
 	}
 }
 

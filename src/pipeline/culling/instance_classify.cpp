@@ -8,7 +8,7 @@ namespace tessera
 
 static constexpr Use kUses[] = {
 	{ "view", Access::ComputeRead },   { "instances", Access::ComputeRead },
-	{ "meshes", Access::ComputeRead }, { "mesh_bounds", Access::ComputeRead, &kCulls },
+	{ "meshes", Access::ComputeRead }, { "mesh_bounds", Access::ComputeRead, &kFrustumCulls },
 	{ "heads", Access::ComputeWrite }, { "cluster_groups", Access::ComputeWrite },
 };
 
