@@ -1,6 +1,7 @@
 // What becomes of a triangle: a part triangle when its factors fit the table, else a split triangle.
 #ifndef TESSERA_LIB_CLASSIFY
 #define TESSERA_LIB_CLASSIFY
+#include "shared/bounds.h"
 #include "shared/edge_factor.h"
 #include "shared/pattern.h"
 
@@ -12,6 +13,7 @@ struct ClassifiedCorner
 };
 
 #define DECISION_SPLIT 0x1000u
+#define DECISION_CULLED 0x2000u  // nothing of it can be in view: it becomes nothing
 
 // Factors (or pieces per edge, with DECISION_SPLIT) of edges p-q, q-r, r-p: 4 bits each.
 uint decideTriangle(ClassifiedCorner p, ClassifiedCorner q, ClassifiedCorner r, View view, FactorRule rule)
@@ -25,6 +27,14 @@ uint decideTriangle(ClassifiedCorner p, ClassifiedCorner q, ClassifiedCorner r, 
 	if (a != 0u && b != 0u && c != 0u)
 		return a | (b << 4) | (c << 8);
 	return edgePieces(edge_a, rule) | (edgePieces(edge_b, rule) << 4) | (edgePieces(edge_c, rule) << 8) | DECISION_SPLIT;
+}
+
+// The same, or DECISION_CULLED. `reach`: of the cluster; only with culling.
+uint decideVisibleTriangle(ClassifiedCorner p, ClassifiedCorner q, ClassifiedCorner r, PlacedReach reach, uint cull_frustum, View view, FactorRule rule)
+{
+	if (HAS_CULLING && cull_frustum != 0u && !pieceMayBeVisible(p.relative, q.relative, r.relative, reach, view))
+		return DECISION_CULLED;
+	return decideTriangle(p, q, r, view, rule);
 }
 
 // The record of a decided triangle, corners turned into pattern order.

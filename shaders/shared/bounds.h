@@ -77,7 +77,18 @@ SHARED_FN float planeReach(float x, float y, float depth, float offset, vec3 cen
 	return middle + reach + rounding;
 }
 
-// False only when no point of the box can be inside the view: left, right, bottom, top or before the near plane.
+// False only when no point of a placed box (centre and half axes) can be inside the view: left, right, bottom, top or
+// before the near plane.
+SHARED_FN bool placedBoxMayBeVisible(vec3 centre, vec3 axis0, vec3 axis1, vec3 axis2, View view)
+{
+	return planeReach(view.focal_x, 0.0f, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
+		   planeReach(-view.focal_x, 0.0f, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
+		   planeReach(0.0f, view.focal_y, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
+		   planeReach(0.0f, -view.focal_y, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
+		   planeReach(0.0f, 0.0f, 1.0f, -view.near, centre, axis0, axis1, axis2, view) >= 0.0f;
+}
+
+// False only when no point of the box can be inside the view.
 SHARED_FN bool boxMayBeVisible(Box box, Placement placement, View view)
 {
 	vec3 middle = vec3((box.low.x + box.high.x) * 0.5f, (box.low.y + box.high.y) * 0.5f, (box.low.z + box.high.z) * 0.5f);
@@ -86,11 +97,57 @@ SHARED_FN bool boxMayBeVisible(Box box, Placement placement, View view)
 	vec3 axis0 = vec3(placement.row0.x * half_size.x, placement.row1.x * half_size.x, placement.row2.x * half_size.x);
 	vec3 axis1 = vec3(placement.row0.y * half_size.y, placement.row1.y * half_size.y, placement.row2.y * half_size.y);
 	vec3 axis2 = vec3(placement.row0.z * half_size.z, placement.row1.z * half_size.z, placement.row2.z * half_size.z);
-	return planeReach(view.focal_x, 0.0f, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
-		   planeReach(-view.focal_x, 0.0f, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
-		   planeReach(0.0f, view.focal_y, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
-		   planeReach(0.0f, -view.focal_y, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
-		   planeReach(0.0f, 0.0f, 1.0f, -view.near, centre, axis0, axis1, axis2, view) >= 0.0f;
+	return placedBoxMayBeVisible(centre, axis0, axis1, axis2, view);
+}
+
+// Everything that displacement adds to a point of a cluster, placed: a centre and three half axes; and how far a point of
+// a piece can lie outside its corners, since domain points are rounded to 2^-23 of the base triangle.
+struct PlacedReach
+{
+	vec3 centre;
+	vec3 axis0;
+	vec3 axis1;
+	vec3 axis2;
+	float slack;
+};
+
+SHARED_FN PlacedReach placedReach(DisplacedBounds bounds, Placement placement, View view)
+{
+	DisplacedBounds at_origin = bounds;
+	at_origin.low = vec3(0.0f, 0.0f, 0.0f);
+	at_origin.high = vec3(0.0f, 0.0f, 0.0f);
+	Box box = displacedBox(at_origin, view.displacement_scale);
+	vec3 middle = vec3((box.low.x + box.high.x) * 0.5f, (box.low.y + box.high.y) * 0.5f, (box.low.z + box.high.z) * 0.5f);
+	vec3 half_size = vec3(box.high.x - middle.x, box.high.y - middle.y, box.high.z - middle.z);
+	vec3 size = vec3(bounds.high.x - bounds.low.x, bounds.high.y - bounds.low.y, bounds.high.z - bounds.low.z);
+	Placement turn = placement;
+	turn.translation = vec3(0.0f, 0.0f, 0.0f);
+	vec3 extent = vec3(max(placement.row0.x, -placement.row0.x) * size.x + max(placement.row0.y, -placement.row0.y) * size.y +
+						   max(placement.row0.z, -placement.row0.z) * size.z,
+					   max(placement.row1.x, -placement.row1.x) * size.x + max(placement.row1.y, -placement.row1.y) * size.y +
+						   max(placement.row1.z, -placement.row1.z) * size.z,
+					   max(placement.row2.x, -placement.row2.x) * size.x + max(placement.row2.y, -placement.row2.y) * size.y +
+						   max(placement.row2.z, -placement.row2.z) * size.z);
+	PlacedReach reach;
+	reach.centre = placed(turn, middle);
+	reach.axis0 = vec3(placement.row0.x * half_size.x, placement.row1.x * half_size.x, placement.row2.x * half_size.x);
+	reach.axis1 = vec3(placement.row0.y * half_size.y, placement.row1.y * half_size.y, placement.row2.y * half_size.y);
+	reach.axis2 = vec3(placement.row0.z * half_size.z, placement.row1.z * half_size.z, placement.row2.z * half_size.z);
+	reach.slack = (extent.x + extent.y + extent.z) * 1e-6f;
+	return reach;
+}
+
+// False only when no displaced point of the piece with undisplaced camera-relative corners p, q, r can be inside the view.
+SHARED_FN bool pieceMayBeVisible(vec3 p, vec3 q, vec3 r, PlacedReach reach, View view)
+{
+	vec3 low = vec3(min(min(p.x, q.x), r.x) - reach.slack, min(min(p.y, q.y), r.y) - reach.slack, min(min(p.z, q.z), r.z) - reach.slack);
+	vec3 high = vec3(max(max(p.x, q.x), r.x) + reach.slack, max(max(p.y, q.y), r.y) + reach.slack, max(max(p.z, q.z), r.z) + reach.slack);
+	float x = max(max(reach.axis0.x, -reach.axis0.x) + max(reach.axis1.x, -reach.axis1.x) + max(reach.axis2.x, -reach.axis2.x), 0.0f);
+	float y = max(max(reach.axis0.y, -reach.axis0.y) + max(reach.axis1.y, -reach.axis1.y) + max(reach.axis2.y, -reach.axis2.y), 0.0f);
+	float z = max(max(reach.axis0.z, -reach.axis0.z) + max(reach.axis1.z, -reach.axis1.z) + max(reach.axis2.z, -reach.axis2.z), 0.0f);
+	vec3 half_size = vec3((high.x - low.x) * 0.5f + x, (high.y - low.y) * 0.5f + y, (high.z - low.z) * 0.5f + z);
+	vec3 centre = vec3((low.x + high.x) * 0.5f + reach.centre.x, (low.y + high.y) * 0.5f + reach.centre.y, (low.z + high.z) * 0.5f + reach.centre.z);
+	return placedBoxMayBeVisible(centre, vec3(half_size.x, 0.0f, 0.0f), vec3(0.0f, half_size.y, 0.0f), vec3(0.0f, 0.0f, half_size.z), view);
 }
 
 SHARED_END

@@ -95,7 +95,10 @@ SHARED_FN bool countsFromFirst(DomainPoint p, DomainPoint q, uint edge_flags)
 }
 
 // Multiplier of divideBy: floor(x / n) = (x * m) >> 32 for x below 2^28, since m n exceeds 2^32 by at most n <= 15.
-SHARED_FN uint divisionMultiplier(uint n) { return 0xffffffffu / n + 1u; }
+SHARED_FN uint divisionMultiplier(uint n)
+{
+	return 0xffffffffu / n + 1u;
+}
 SHARED_FN uint divideBy(uint x, uint n, uint multiplier)
 {
 	return n == 1u ? x : uint((uint64_t(x) * uint64_t(multiplier)) >> 32);

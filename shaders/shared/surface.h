@@ -217,7 +217,8 @@ SHARED_FN SurfaceSample sampleAtPoint(Surface surface, BaseTriangle base, Domain
 	result.source.height_map = NO_INDEX;
 	if (HAS_DISPLACEMENT)
 	{
-		result.direction = weightedVec3(AT(vec3, surface.directions, base.v0), AT(vec3, surface.directions, base.v1), AT(vec3, surface.directions, base.v2), weights);
+		result.direction = weightedVec3(AT(vec3, surface.directions, base.v0), AT(vec3, surface.directions, base.v1),
+										AT(vec3, surface.directions, base.v2), weights);
 		result.source = heightSource(surface, base, p, weights);
 	}
 	return result;

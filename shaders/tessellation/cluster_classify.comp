@@ -1,6 +1,7 @@
 // cluster_classify: decide, per visible cluster, what each triangle becomes.
 //
 //   in   visible_clusters   ClusterRef[]       from cluster_cull
+//   in   cluster_bounds     DisplacedBounds[]  only with culling: triangles out of view become nothing
 //   out  full_clusters      FullCluster[]      visible clusters whose factors are all 1: drawn as stored
 //   out  split_triangles    DomainTriangle[]   some factor exceeds the table: level 0 of triangle_split
 //   out  part_triangles     DomainTriangle[]   fits the table: to batch_parts
@@ -41,17 +42,20 @@ ClassifiedCorner cornerOf(uint triangle, uint corner)
 	return ClassifiedCorner(domainCorner(corner), relative[triangleVertex(triangle, corner)]);
 }
 
-void decideTriangles(ClusterRecord cluster, View view)
+void decideTriangles(ClusterRecord cluster, PlacedReach reach, View view)
 {
 	for (uint t = gl_LocalInvocationIndex; t < clusterTriangles(cluster); t += gl_WorkGroupSize.x)
 	{
 		uint triangle = args.triangles.at[cluster.first_triangle + t];
-		uint decision = decideTriangle(cornerOf(triangle, 0u), cornerOf(triangle, 1u), cornerOf(triangle, 2u), view, args.rule);
+		uint decision = decideVisibleTriangle(cornerOf(triangle, 0u), cornerOf(triangle, 1u), cornerOf(triangle, 2u), reach, args.cull_frustum, view, args.rule);
 		// The place in the workgroup's part of the list rides in the upper bits.
-		bool split = (decision & DECISION_SPLIT) != 0u;
-		uint place = split ? atomicAdd(split_count, 1u) : atomicAdd(part_count, 1u);
-		if (decision != ALL_ONE)
-			tessellated = 1u;
+		uint place = 0u;
+		if (decision != DECISION_CULLED)
+		{
+			place = (decision & DECISION_SPLIT) != 0u ? atomicAdd(split_count, 1u) : atomicAdd(part_count, 1u);
+			if (decision != ALL_ONE)
+				tessellated = 1u;
+		}
 		decisions[t] = decision | (place << 16);
 	}
 }
@@ -81,6 +85,8 @@ void writeTriangles(ClusterRecord cluster, uint index)
 	{
 		uint decision = decisions[t] & 0xffffu;
 		uint place = decisions[t] >> 16;
+		if (decision == DECISION_CULLED)
+			continue;
 		DomainTriangle record = decidedTriangle(decision, domainCorner(0u), domainCorner(1u), domainCorner(2u), index, t);
 		if ((decision & DECISION_SPLIT) != 0u)
 		{
@@ -106,9 +112,13 @@ void main()
 			split_count = 0u;
 			tessellated = 0u;
 		}
-		placeVertices(cluster, placementOf(args.instances.at[ref.instance], view));
+		Placement placement = placementOf(args.instances.at[ref.instance], view);
+		PlacedReach reach;
+		if (HAS_CULLING)
+			reach = placedReach(args.cluster_bounds.at[ref.cluster], placement, view);
+		placeVertices(cluster, placement);
 		barrier();
-		decideTriangles(cluster, view);
+		decideTriangles(cluster, reach, view);
 		barrier();
 		if (gl_LocalInvocationIndex == 0u)
 			reserve(cluster, index);

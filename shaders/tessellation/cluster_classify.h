@@ -1,6 +1,7 @@
 // Arguments of cluster_classify.
 #ifndef TESSERA_TESSELLATION_CLUSTER_CLASSIFY_H
 #define TESSERA_TESSELLATION_CLUSTER_CLASSIFY_H
+#include "shared/bounds.h"
 #include "shared/edge_factor.h"
 #include "shared/geometry.h"
 #include "shared/lists.h"
@@ -11,6 +12,7 @@ struct ClusterClassifyArgs
 {
 	GPU_PTR(InstanceRecord) instances;
 	GPU_PTR(ClusterRecord) clusters;
+	GPU_PTR(DisplacedBounds) cluster_bounds;  // 0 without culling
 	GPU_PTR(vec3) positions;
 	GPU_PTR(uint) triangles;
 	GPU_PTR(ListHead) heads;
@@ -20,8 +22,9 @@ struct ClusterClassifyArgs
 	GPU_PTR(DomainTriangle) split_triangles;  // 0 when no split can occur
 	GPU_PTR(DomainTriangle) part_triangles;
 	FactorRule rule;
+	uint cull_frustum;
 };
-SHARED_LAYOUT(ClusterClassifyArgs, 88, rule, 80)
+SHARED_LAYOUT(ClusterClassifyArgs, 104, cull_frustum, 96)
 
 SHARED_END
 

@@ -52,13 +52,15 @@ void placeVertices(DomainPiece piece, PatternRange pattern, ClusterRecord cluste
 
 ClassifiedCorner cornerOf(uint vertex) { return ClassifiedCorner(domains[vertex], relative[vertex]); }
 
-void decideChildren(DomainPiece piece, PatternRange pattern, View view)
+void decideChildren(DomainPiece piece, PatternRange pattern, PlacedReach reach, View view)
 {
 	for (uint t = gl_LocalInvocationIndex; t < patternTriangles(pattern); t += gl_WorkGroupSize.x)
 	{
 		uvec3 corners = patternTriangle(t, pattern, args.table, piece.mirror);
-		uint decision = decideTriangle(cornerOf(corners.x), cornerOf(corners.y), cornerOf(corners.z), view, args.rule);
-		uint place = (decision & DECISION_SPLIT) != 0u ? atomicAdd(split_count, 1u) : atomicAdd(part_count, 1u);
+		uint decision = decideVisibleTriangle(cornerOf(corners.x), cornerOf(corners.y), cornerOf(corners.z), reach, args.cull_frustum, view, args.rule);
+		uint place = 0u;
+		if (decision != DECISION_CULLED)
+			place = (decision & DECISION_SPLIT) != 0u ? atomicAdd(split_count, 1u) : atomicAdd(part_count, 1u);
 		decisions[t] = decision | (place << 16);
 	}
 }
@@ -81,6 +83,8 @@ void writeChildren(DomainPiece piece, PatternRange pattern)
 	{
 		uint decision = decisions[t] & 0xffffu;
 		uint place = decisions[t] >> 16;
+		if (decision == DECISION_CULLED)
+			continue;
 		uvec3 corners = patternTriangle(t, pattern, args.table, piece.mirror);
 		DomainTriangle record = decidedTriangle(decision, domains[corners.x], domains[corners.y], domains[corners.z], piece.visible_cluster, piece.triangle);
 		if ((decision & DECISION_SPLIT) != 0u)
@@ -109,9 +113,13 @@ void main()
 			part_count = 0u;
 			split_count = 0u;
 		}
-		placeVertices(piece, pattern, args.clusters.at[ref.cluster], placementOf(args.instances.at[ref.instance], view));
+		Placement placement = placementOf(args.instances.at[ref.instance], view);
+		PlacedReach reach;
+		if (HAS_CULLING)
+			reach = placedReach(args.cluster_bounds.at[ref.cluster], placement, view);
+		placeVertices(piece, pattern, args.clusters.at[ref.cluster], placement);
 		barrier();
-		decideChildren(piece, pattern, view);
+		decideChildren(piece, pattern, reach, view);
 		barrier();
 		if (gl_LocalInvocationIndex == 0u)
 			reserve(next_begin);

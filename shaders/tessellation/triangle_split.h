@@ -1,6 +1,7 @@
 // Arguments of triangle_split.
 #ifndef TESSERA_TESSELLATION_TRIANGLE_SPLIT_H
 #define TESSERA_TESSELLATION_TRIANGLE_SPLIT_H
+#include "shared/bounds.h"
 #include "shared/edge_factor.h"
 #include "shared/geometry.h"
 #include "shared/lists.h"
@@ -12,6 +13,7 @@ struct TriangleSplitArgs
 {
 	GPU_PTR(InstanceRecord) instances;
 	GPU_PTR(ClusterRecord) clusters;
+	GPU_PTR(DisplacedBounds) cluster_bounds;  // 0 without culling
 	GPU_PTR(vec3) positions;
 	GPU_PTR(uint) triangles;
 	GPU_PTR(ListHead) heads;
@@ -21,10 +23,11 @@ struct TriangleSplitArgs
 	GPU_PTR(DomainTriangle) part_triangles;
 	TableView table;
 	FactorRule rule;
-	uint level;       // which level of split_triangles is taken apart
+	uint level;  // which level of split_triangles is taken apart
+	uint cull_frustum;
 	uint last_level;  // 1: what still exceeds the table after this level has nowhere to go (the frame is planned again)
 };
-SHARED_LAYOUT(TriangleSplitArgs, 112, last_level, 108)
+SHARED_LAYOUT(TriangleSplitArgs, 128, last_level, 120)
 
 SHARED_END
 

@@ -1,8 +1,8 @@
 #include "reference/host_scene.h"
 
 #include "base/check.h"
-#include "scene/camera.h"
 #include "scene/build/height_map.h"
+#include "scene/camera.h"
 
 namespace tessera::reference
 {

@@ -7,7 +7,7 @@ namespace tessera
 {
 
 static constexpr auto kUses = joinUses(surfaceUses(Access::ComputeRead), partUses(Access::ComputeRead),
-                                       std::array<Use, 5>{ {
+									   std::array<Use, 5>{ {
 										   { "heads", Access::ComputeRead },
 										   { "counts", Access::ComputeRead },
 										   { "full_clusters", Access::ComputeRead },

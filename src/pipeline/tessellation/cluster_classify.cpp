@@ -7,11 +7,18 @@ namespace tessera
 {
 
 static constexpr Use kUses[] = {
-	{ "visible_clusters", Access::ComputeRead }, { "view", Access::ComputeRead },
-	{ "instances", Access::ComputeRead },        { "clusters", Access::ComputeRead },
-	{ "positions", Access::ComputeRead },        { "triangles", Access::ComputeRead },
-	{ "heads", Access::ComputeWrite },           { "counts", Access::ComputeWrite },
-	{ "full_clusters", Access::ComputeWrite },   { "split_triangles", Access::ComputeWrite, &kSplits },
+	{ "visible_clusters", Access::ComputeRead },
+	{ "view", Access::ComputeRead },
+	{ "instances", Access::ComputeRead },
+	{ "clusters", Access::ComputeRead },
+	{ "cluster_bounds", Access::ComputeRead, &kCulls },
+	{ "cluster_bounds", Access::ComputeRead, &kCulls },
+	{ "positions", Access::ComputeRead },
+	{ "triangles", Access::ComputeRead },
+	{ "heads", Access::ComputeWrite },
+	{ "counts", Access::ComputeWrite },
+	{ "full_clusters", Access::ComputeWrite },
+	{ "split_triangles", Access::ComputeWrite, &kSplits },
 	{ "part_triangles", Access::ComputeWrite },
 };
 
@@ -20,6 +27,8 @@ static void record(PassContext& pass)
 	ClusterClassifyArgs args = {};
 	args.instances = pass.address("instances");
 	args.clusters = pass.address("clusters");
+	args.cluster_bounds = pass.address("cluster_bounds");
+	args.cluster_bounds = pass.address("cluster_bounds");
 	args.positions = pass.address("positions");
 	args.triangles = pass.address("triangles");
 	args.heads = pass.address("heads");
@@ -29,6 +38,8 @@ static void record(PassContext& pass)
 	args.split_triangles = pass.address("split_triangles");
 	args.part_triangles = pass.address("part_triangles");
 	args.rule = pass.factorRule();
+	args.cull_frustum = pass.input().options.cull.frustum ? 1 : 0;
+	args.cull_frustum = pass.input().options.cull.frustum ? 1 : 0;
 	pass.dispatchLoop(args, pass.capacity("visible_clusters"));
 }
 

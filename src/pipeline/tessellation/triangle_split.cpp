@@ -7,10 +7,19 @@ namespace tessera
 {
 
 static constexpr Use kUses[] = {
-	{ "visible_clusters", Access::ComputeRead }, { "view", Access::ComputeRead },           { "instances", Access::ComputeRead },
-	{ "clusters", Access::ComputeRead },         { "positions", Access::ComputeRead },      { "triangles", Access::ComputeRead },
-	{ "patterns", Access::ComputeRead },         { "table_vertices", Access::ComputeRead }, { "table_triangles", Access::ComputeRead },
-	{ "heads", Access::ComputeWrite },           { "counts", Access::ComputeWrite },        { "split_triangles", Access::ComputeWrite },
+	{ "visible_clusters", Access::ComputeRead },
+	{ "view", Access::ComputeRead },
+	{ "instances", Access::ComputeRead },
+	{ "clusters", Access::ComputeRead },
+	{ "cluster_bounds", Access::ComputeRead, &kCulls },
+	{ "positions", Access::ComputeRead },
+	{ "triangles", Access::ComputeRead },
+	{ "patterns", Access::ComputeRead },
+	{ "table_vertices", Access::ComputeRead },
+	{ "table_triangles", Access::ComputeRead },
+	{ "heads", Access::ComputeWrite },
+	{ "counts", Access::ComputeWrite },
+	{ "split_triangles", Access::ComputeWrite },
 	{ "part_triangles", Access::ComputeWrite },
 };
 
@@ -24,6 +33,7 @@ static void record(PassContext& pass)
 	TriangleSplitArgs args = {};
 	args.instances = pass.address("instances");
 	args.clusters = pass.address("clusters");
+	args.cluster_bounds = pass.address("cluster_bounds");
 	args.positions = pass.address("positions");
 	args.triangles = pass.address("triangles");
 	args.heads = pass.address("heads");
@@ -33,6 +43,7 @@ static void record(PassContext& pass)
 	args.part_triangles = pass.address("part_triangles");
 	args.table = tableView(pass);
 	args.rule = pass.factorRule();
+	args.cull_frustum = pass.input().options.cull.frustum ? 1 : 0;
 	args.level = pass.repeat();
 	args.last_level = pass.repeat() + 1 == levels(pass.input()) ? 1 : 0;
 	pass.dispatchLoop(args, pass.capacity("split_triangles"));

@@ -3,6 +3,7 @@
 #include "scene/build/disjoint_sets.h"
 
 #include <algorithm>
+#include <compare>
 #include <cstring>
 
 namespace tessera
@@ -62,15 +63,26 @@ std::vector<uint32_t> findCharts(const MeshCorners& corners, const MeshWeld& wel
 	return charts;
 }
 
-// Of items 0..count-1 in groups, the one of each group whose triangle's chart begins first, then the lowest; per group.
-template <typename GroupOf>
-std::vector<uint32_t> firstByChart(uint32_t count, size_t groups, const std::vector<uint32_t>& charts, GroupOf groupOf)
+// What decides ownership, least first: of an edge, how many of its ends another side owns (else heights would jump at
+// every vertex of a seam); the chart; and where both sides lie in one chart (a cylinder's seam), the texture coordinate,
+// so that one side keeps owning there too; then input order.
+struct OwnerKey
+{
+	uint32_t foreign_ends = 0;
+	uint32_t chart = NO_INDEX;
+	float u = 0, v = 0;
+	auto operator<=>(const OwnerKey&) const = default;
+};
+
+// Of items 0..count-1 in groups, the one of each group with the least key, then the lowest; per group.
+template <typename GroupOf, typename KeyOf>
+std::vector<uint32_t> firstByKey(uint32_t count, size_t groups, GroupOf groupOf, KeyOf keyOf)
 {
 	std::vector<uint32_t> firsts(groups, NO_INDEX);
 	for (uint32_t item = 0; item < count; ++item)
 	{
 		uint32_t& first = firsts[groupOf(item)];
-		if (first == NO_INDEX || charts[item / 3] < charts[first / 3])
+		if (first == NO_INDEX || keyOf(item) < keyOf(first))
 			first = item;
 	}
 	return firsts;
@@ -97,9 +109,23 @@ MeshSeams findSeams(const MeshCorners& corners, const MeshWeld& weld, const Mesh
 	MeshSeams seams;
 	const uint32_t edge_count = uint32_t(weld.edge_owners.size());
 	const std::vector<uint32_t> charts = findCharts(corners, weld, vertices);
-	const auto edge_firsts = firstByChart(edge_count, edge_count, charts, [&](uint32_t edge) { return weld.edge_owners[edge]; });
-	const auto corner_firsts =
-		firstByChart(edge_count, weld.first_corners.size(), charts, [&](uint32_t corner) { return weld.corner_welds[corner]; });
+	const auto cornerKey = [&](uint32_t corner) {
+		const vec2 uv = vertices.vertices[vertices.corner_vertices[corner]].uv;
+		return OwnerKey{ 0, charts[corner / 3], uv.x, uv.y };
+	};
+	const auto corner_firsts = firstByKey(
+		edge_count, weld.first_corners.size(), [&](uint32_t corner) { return weld.corner_welds[corner]; }, cornerKey);
+	const auto isForeign = [&](uint32_t corner) {
+		const SeamCorner own = seamCorner(vertices.corner_vertices[corner], vertices);
+		const SeamCorner owner = seamCorner(vertices.corner_vertices[corner_firsts[weld.corner_welds[corner]]], vertices);
+		return std::memcmp(&own, &owner, sizeof own) != 0 ? 1u : 0u;
+	};
+	const auto edgeKey = [&](uint32_t edge) {
+		const OwnerKey first = cornerKey(edge), second = cornerKey(nextCorner(edge));
+		return OwnerKey{ isForeign(edge) + isForeign(nextCorner(edge)), first.chart, first.u + second.u, first.v + second.v };
+	};
+	const auto edge_firsts = firstByKey(
+		edge_count, edge_count, [&](uint32_t edge) { return weld.edge_owners[edge]; }, edgeKey);
 
 	seams.edge_flags.resize(corners.triangleCount());
 	seams.edge_owners.resize(edge_count);
