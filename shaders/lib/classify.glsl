@@ -29,12 +29,10 @@ uint decideTriangle(ClassifiedCorner p, ClassifiedCorner q, ClassifiedCorner r, 
 	return edgePieces(edge_a, rule) | (edgePieces(edge_b, rule) << 4) | (edgePieces(edge_c, rule) << 8) | DECISION_SPLIT;
 }
 
-// The same, or DECISION_CULLED. `reach`: of the cluster; only with culling.
-uint decideVisibleTriangle(ClassifiedCorner p, ClassifiedCorner q, ClassifiedCorner r, PlacedReach reach, uint cull_frustum, View view, FactorRule rule)
+// True when nothing of the piece can be in view. `reach`: of the cluster; only with culling.
+bool isOutOfView(ClassifiedCorner p, ClassifiedCorner q, ClassifiedCorner r, PlacedReach reach, uint cull_frustum, View view)
 {
-	if (HAS_CULLING && cull_frustum != 0u && !pieceMayBeVisible(p.relative, q.relative, r.relative, reach, view))
-		return DECISION_CULLED;
-	return decideTriangle(p, q, r, view, rule);
+	return HAS_CULLING && cull_frustum != 0u && !pieceMayBeVisible(p.relative, q.relative, r.relative, reach, view);
 }
 
 // The record of a decided triangle, corners turned into pattern order.

@@ -47,15 +47,16 @@ void decideTriangles(ClusterRecord cluster, PlacedReach reach, View view)
 	for (uint t = gl_LocalInvocationIndex; t < clusterTriangles(cluster); t += gl_WorkGroupSize.x)
 	{
 		uint triangle = args.triangles.at[cluster.first_triangle + t];
-		uint decision = decideVisibleTriangle(cornerOf(triangle, 0u), cornerOf(triangle, 1u), cornerOf(triangle, 2u), reach, args.cull_frustum, view, args.rule);
+		ClassifiedCorner p = cornerOf(triangle, 0u), q = cornerOf(triangle, 1u), r = cornerOf(triangle, 2u);
+		uint decision = decideTriangle(p, q, r, view, args.rule);
+		if (decision != ALL_ONE)
+			tessellated = 1u;
+		if (isOutOfView(p, q, r, reach, args.cull_frustum, view))
+			decision = DECISION_CULLED;
 		// The place in the workgroup's part of the list rides in the upper bits.
 		uint place = 0u;
 		if (decision != DECISION_CULLED)
-		{
 			place = (decision & DECISION_SPLIT) != 0u ? atomicAdd(split_count, 1u) : atomicAdd(part_count, 1u);
-			if (decision != ALL_ONE)
-				tessellated = 1u;
-		}
 		decisions[t] = decision | (place << 16);
 	}
 }

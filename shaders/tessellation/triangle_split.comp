@@ -57,7 +57,9 @@ void decideChildren(DomainPiece piece, PatternRange pattern, PlacedReach reach, 
 	for (uint t = gl_LocalInvocationIndex; t < patternTriangles(pattern); t += gl_WorkGroupSize.x)
 	{
 		uvec3 corners = patternTriangle(t, pattern, args.table, piece.mirror);
-		uint decision = decideVisibleTriangle(cornerOf(corners.x), cornerOf(corners.y), cornerOf(corners.z), reach, args.cull_frustum, view, args.rule);
+		ClassifiedCorner p = cornerOf(corners.x), q = cornerOf(corners.y), r = cornerOf(corners.z);
+		bool culled = isOutOfView(p, q, r, reach, args.cull_frustum, view);
+		uint decision = culled ? DECISION_CULLED : decideTriangle(p, q, r, view, args.rule);
 		uint place = 0u;
 		if (decision != DECISION_CULLED)
 			place = (decision & DECISION_SPLIT) != 0u ? atomicAdd(split_count, 1u) : atomicAdd(part_count, 1u);
