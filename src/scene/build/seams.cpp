@@ -63,13 +63,29 @@ std::vector<uint32_t> findCharts(const MeshCorners& corners, const MeshWeld& wel
 	return charts;
 }
 
+// Per triangle: the rank of its chart, the largest chart first, equal ones in input order.
+std::vector<uint32_t> rankCharts(const std::vector<uint32_t>& charts)
+{
+	std::vector<uint32_t> sizes(charts.size(), 0), order, ranks(charts.size());
+	for (const uint32_t chart : charts)
+		if (sizes[chart]++ == 0)
+			order.push_back(chart);
+	std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return sizes[a] > sizes[b]; });
+	std::vector<uint32_t> rank_of(charts.size());
+	for (uint32_t rank = 0; rank < order.size(); ++rank)
+		rank_of[order[rank]] = rank;
+	for (size_t triangle = 0; triangle < charts.size(); ++triangle)
+		ranks[triangle] = rank_of[charts[triangle]];
+	return ranks;
+}
+
 // What decides ownership, least first: of an edge, how many of its ends another side owns (else heights would jump at
-// every vertex of a seam); the chart; and where both sides lie in one chart (a cylinder's seam), the texture coordinate,
-// so that one side keeps owning there too; then input order.
+// every vertex of a seam); the chart, the largest first, since beside a strip of small charts the large one runs through; and where both sides lie in
+// one chart (a cylinder's seam), the texture coordinate, so that one side keeps owning there too; then input order.
 struct OwnerKey
 {
 	uint32_t foreign_ends = 0;
-	uint32_t chart = NO_INDEX;
+	uint32_t chart_rank = NO_INDEX;
 	float u = 0, v = 0;
 	auto operator<=>(const OwnerKey&) const = default;
 };
@@ -108,10 +124,10 @@ MeshSeams findSeams(const MeshCorners& corners, const MeshWeld& weld, const Mesh
 {
 	MeshSeams seams;
 	const uint32_t edge_count = uint32_t(weld.edge_owners.size());
-	const std::vector<uint32_t> charts = findCharts(corners, weld, vertices);
+	const std::vector<uint32_t> ranks = rankCharts(findCharts(corners, weld, vertices));
 	const auto cornerKey = [&](uint32_t corner) {
 		const vec2 uv = vertices.vertices[vertices.corner_vertices[corner]].uv;
-		return OwnerKey{ 0, charts[corner / 3], uv.x, uv.y };
+		return OwnerKey{ 0, ranks[corner / 3], uv.x, uv.y };
 	};
 	const auto corner_firsts = firstByKey(
 		edge_count, weld.first_corners.size(), [&](uint32_t corner) { return weld.corner_welds[corner]; }, cornerKey);
@@ -122,7 +138,7 @@ MeshSeams findSeams(const MeshCorners& corners, const MeshWeld& weld, const Mesh
 	};
 	const auto edgeKey = [&](uint32_t edge) {
 		const OwnerKey first = cornerKey(edge), second = cornerKey(nextCorner(edge));
-		return OwnerKey{ isForeign(edge) + isForeign(nextCorner(edge)), first.chart, first.u + second.u, first.v + second.v };
+		return OwnerKey{ isForeign(edge) + isForeign(nextCorner(edge)), first.chart_rank, first.u + second.u, first.v + second.v };
 	};
 	const auto edge_firsts = firstByKey(
 		edge_count, edge_count, [&](uint32_t edge) { return weld.edge_owners[edge]; }, edgeKey);

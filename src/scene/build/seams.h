@@ -15,8 +15,8 @@ struct MeshSeams
 	uint32_t seam_corners = 0;
 };
 
-// Owners are chosen by chart: triangles joined by edges that they read alike. An edge or corner belongs to the chart that begins
-// first in input order, within one chart to the lower texture coordinates, and an edge
+// Owners are chosen by chart: triangles joined by edges that they read alike. An edge or corner belongs to the largest chart
+// (of equal ones to the first in input order), within one chart to the lower texture coordinates, and an edge
 // to the side that owns its ends, so that along a seam one side owns it from end to end and heights do not
 // alternate between the sides. Others differ when texture coordinates, densities (both ends) or the height map differ in any bit.
 MeshSeams findSeams(const MeshCorners& corners, const MeshWeld& weld, const MeshVertices& vertices);
