@@ -1,5 +1,6 @@
 #include "gpu/device.h"
 
+#include "base/keep_loaded.h"
 #include "base/log.h"
 #include "gpu/allocator.h"
 #include "gpu/device_features.h"
@@ -63,6 +64,7 @@ Result<VkInstance> createInstance(bool validate)
 	{
 		if (!hasLayer(kValidationLayer))
 			return fail(ExitCode::DeviceCannot, "--validate: the layer {} is not installed (package vulkan-validationlayers)", kValidationLayer);
+		keepLoadedForLeakReports("libVkLayer_khronos_validation.so");
 		layers.push_back(kValidationLayer);
 	}
 	const VkValidationFeatureEnableEXT enables[] = { VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT };
