@@ -28,8 +28,10 @@ bool isVisible(InstanceRecord instance)
 void appendGroups(uint index, MeshRecord mesh)
 {
 	uint groups = (mesh.cluster_count + CLUSTER_GROUP_SIZE - 1u) / CLUSTER_GROUP_SIZE;
-	// The first group of this round: (instance + group) mod round_count == round.
-	uint offset = (args.round + args.round_count - index % args.round_count) % args.round_count;
+	// The first group of this round: (instance * groups_per_mesh + group) mod round_count == round. With as many rounds as
+	// groups there is one group in each, so enough rounds always fit.
+	uint before = ((index % args.round_count) * (args.groups_per_mesh % args.round_count)) % args.round_count;
+	uint offset = (args.round + args.round_count - before) % args.round_count;
 	uint taken = groups > offset ? (groups - offset + args.round_count - 1u) / args.round_count : 0u;
 	if (taken == 0u)
 		return;

@@ -17,8 +17,9 @@ struct InstanceClassifyArgs
 	uint instance_count;
 	uint round;  // a frame in several rounds takes every round_count-th group in each
 	uint round_count;
+	uint groups_per_mesh;  // most groups that any mesh has: numbers all groups of the scene one after another
 };
-SHARED_LAYOUT(InstanceClassifyArgs, 56, round_count, 48)
+SHARED_LAYOUT(InstanceClassifyArgs, 56, groups_per_mesh, 52)
 
 SHARED_END
 

@@ -20,8 +20,8 @@ constexpr ListDesc kLists[] = {
 	{ "split_triangles", LIST_SPLIT_TRIANGLES, 24, kMillion / 4, 1 },
 	{ "part_triangles", LIST_PART_TRIANGLES, 24, kMillion, 1 },
 	{ "batches", LIST_BATCHES, 8, kMillion, 1 },
-	{ "micro_vertices", LIST_MICRO_VERTICES, 16, kMillion, 128 },
-	{ "expanded_triangles", LIST_EXPANDED_TRIANGLES, 16, kMillion, 128 },
+	{ "micro_vertices", LIST_MICRO_VERTICES, 16, kMillion, 128 * CLUSTER_GROUP_SIZE },
+	{ "expanded_triangles", LIST_EXPANDED_TRIANGLES, 16, kMillion, 128 * CLUSTER_GROUP_SIZE },
 };
 
 // Most entries that the scene itself can ask for, whatever the rate: 0 = no such bound.

@@ -23,6 +23,9 @@ SceneSizes sizesOf(const BuiltScene& scene)
 	sizes.meshes = scene.meshes.size();
 	sizes.instances = scene.instances.size();
 	sizes.materials = scene.materials.size();
+	for (const MeshRecord& mesh : scene.meshes)
+		sizes.most_groups_per_mesh =
+			std::max<uint64_t>(sizes.most_groups_per_mesh, (mesh.cluster_count + CLUSTER_GROUP_SIZE - 1) / CLUSTER_GROUP_SIZE);
 	for (const Instance& instance : scene.instances)
 		sizes.instanced_clusters += scene.meshes[instance.mesh].cluster_count;
 	for (const HeightMapData& map : scene.height_maps)
@@ -62,6 +65,9 @@ Status checkGates(const Device& device, const PlanInput& input)
 
 constexpr std::string_view kWanted[] = { "picture", "counts", "heads" };
 
+// Rounds are counted in 16 bits (shade.h).
+constexpr uint32_t kMostRounds = 0x8000;
+
 class SceneRenderer final : public Renderer
 {
 public:
@@ -88,6 +94,8 @@ public:
 		for (uint32_t attempts = 1;; ++attempts)
 		{
 			const Attempt attempt = controller_.next();
+			if (attempt.rounds > kMostRounds)
+				return badInput("{}: the frame needs more than {} rounds; make its lists larger (--capacity)", scene_.path, kMostRounds);
 			TRY_ASSIGN(FrameResult result, drawAttempt(camera, attempt));
 			result.attempts = attempts;
 			if (grew_)

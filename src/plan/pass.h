@@ -31,7 +31,8 @@ bool writes(Access access);
 struct SceneSizes
 {
 	uint64_t vertices = 0, triangles = 0, clusters = 0, meshes = 0, instances = 0, materials = 0;
-	uint64_t instanced_clusters = 0;  // clusters over all instances
+	uint64_t most_groups_per_mesh = 0;  // groups of CLUSTER_GROUP_SIZE clusters
+	uint64_t instanced_clusters = 0;    // clusters over all instances
 	uint64_t height_texel_bytes = 0, color_texture_bytes = 0, seam_edges = 0, seam_corners = 0, height_maps = 0;
 };
 

@@ -23,6 +23,7 @@ static void record(PassContext& pass)
 	args.instance_count = static_cast<uint32_t>(pass.input().sizes.instances);
 	args.round = pass.round();
 	args.round_count = pass.input().view.rounds;
+	args.groups_per_mesh = static_cast<uint32_t>(pass.input().sizes.most_groups_per_mesh);
 	pass.dispatchLoop(args, args.instance_count, 64);
 }
 
