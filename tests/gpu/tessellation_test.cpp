@@ -1,5 +1,6 @@
 // cluster_classify, triangle_split and batch_parts against the CPU reference, bit for bit, as sets; and lists that are too small.
 #include "gpu_test.h"
+#include "scene/builtin.h"
 
 #include "scene/factor_rule.h"
 
@@ -373,6 +374,25 @@ TEST_F(tessellation, aSceneOfMoreClustersThanTheListHoldsIsDrawnInRoundsToTheSam
 		drawAgain(rounds, scene->camera);
 		EXPECT_EQ(differingPixels(rounds.picture(), whole.picture()), 0u) << "second frame";
 	}
+}
+
+TEST_F(tessellation, manyGroupsOfManyInstancesFitTheSmallestListInEnoughRounds)
+{
+	// Small clusters: several groups in each instance, so that groups of different instances could meet in one round.
+	ImportedScene imported = *makeBuiltinScene("planet");
+	imported.instances.resize(4, imported.instances.front());
+	for (size_t i = 0; i < imported.instances.size(); ++i)
+		imported.instances[i].world[3].x += double(i) * 0.7;
+	const GpuScene scene(imported, defaultTable(), { 64, 16 });
+	RenderOptions options = uncut(12);
+	options.raster = Raster::Soft;
+	const GpuFrame whole = drawFrame(scene, options);
+	options.capacities = { { "visible_clusters", 64 } };
+	const GpuFrame rounds = drawFrame(scene, options);
+	EXPECT_GE(rounds.result.rounds * 64u, whole.visible.size());
+	EXPECT_EQ(rounds.result.counts.visible_clusters, whole.result.counts.visible_clusters);
+	EXPECT_EQ(rounds.result.counts.micro_triangles, whole.result.counts.micro_triangles);
+	EXPECT_EQ(differingPixels(rounds.picture(), whole.picture()), 0u);
 }
 
 TEST_F(tessellation, everyFactorOneIsTheLastResort)
