@@ -20,8 +20,6 @@ uint64_t sumBytes(const FramePlan& plan, bool kept)
 	return sum;
 }
 
-constexpr std::string_view kWanted[] = { "picture", "counts", "heads" };
-
 }  // namespace
 
 uint64_t ScenePlan::bytesKept() const
@@ -52,7 +50,7 @@ Result<ScenePlan> planScene(const BuiltScene& scene, const Camera& camera, const
 	const FactorBound bound = boundFactors(camera, scene, request, table.max_edge_segments, max_split);
 	planned.input.view.factors_above_one = bound.above_one;
 	planned.input.view.split_levels = bound.split_levels;
-	TRY_ASSIGN(planned.plan, planFrame(framePasses(), resourceDescs(), kWanted, planned.input));
+	TRY_ASSIGN(planned.plan, planFrame(framePasses(), resourceDescs(), kWantedOutputs, planned.input));
 	return planned;
 }
 

@@ -63,8 +63,6 @@ Status checkGates(const Device& device, const PlanInput& input)
 	return {};
 }
 
-constexpr std::string_view kWanted[] = { "picture", "counts", "heads" };
-
 // Rounds are counted in 16 bits (shade.h).
 constexpr uint32_t kMostRounds = 0x8000;
 
@@ -151,7 +149,7 @@ private:
 		input_.view.split_levels = bound.split_levels > 0 || levels_needed_ > 0 ? std::max(bound.split_levels, levels_needed_) : 0;
 		input_.view.rounds = attempt.rounds;
 		input_.view.rate_px = grantedRate(attempt);
-		return planFrame(passes_, resourceDescs(), kWanted, input_);
+		return planFrame(passes_, resourceDescs(), kWantedOutputs, input_);
 	}
 
 	// One attempt: plans, draws all rounds, and leaves in outcome_ whether everything fitted.

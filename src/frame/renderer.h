@@ -12,6 +12,9 @@
 namespace tessera
 {
 
+// What every frame is planned back from.
+inline constexpr std::string_view kWantedOutputs[] = { "picture", "counts", "heads" };
+
 class Renderer
 {
 public:
