@@ -106,7 +106,7 @@ private:
 
 	Status makeDevice()
 	{
-		TRY_ASSIGN(device_, Device::create({ settings_.base.device, settings_.base.validate }));
+		TRY_ASSIGN(device_, Device::create({ settings_.base.device, settings_.base.validate, settings_.base.pipeline_statistics }));
 		return {};
 	}
 

@@ -194,6 +194,8 @@ const std::array kTable = {
 	OptionDesc{ "warmup", "N", "frames to draw before those", &AppOptions::warmup, 0, 1e6 },
 	OptionDesc{ "device", "NAME|N", "part of a device's name, or its number; default: the fastest kind there is", &AppOptions::device, 0, 0,
 				Rebuild::Device },
+	OptionDesc{ "pipelines", "", "print what the driver compiled each compute pipeline to: registers, shared memory",
+				&AppOptions::pipeline_statistics, 0, 0, Rebuild::Device },
 	OptionDesc{ "validate", "", "run under the Vulkan validation layer; any message: exit code 6", &AppOptions::validate, 0, 0, Rebuild::Device },
 	OptionDesc{ "strict", "", "do not coarsen a frame whose lists would overflow: exit code 5", &AppOptions::strict },
 	OptionDesc{ "quiet", "", "warnings and errors only", &AppOptions::quiet },

@@ -35,6 +35,7 @@ struct AppOptions : RenderOptions
 	std::vector<std::string> displacements;
 	uint32_t frames = 1, warmup = 0;
 	std::string device;
+	bool pipeline_statistics = false;
 	bool validate = false, strict = false, quiet = false;
 	uint32_t cluster_vertices = 64, cluster_triangles = 64;
 	std::string table;  // file; empty: the table that is built in

@@ -110,7 +110,8 @@ Status renderCommand(const CommandLine& line)
 {
 	TRY_ASSIGN(const std::string picture_path, picturePath(line));
 	TRY_ASSIGN(const Subject subject, loadSubject(line));
-	TRY_ASSIGN(const std::unique_ptr<Device> device, Device::create({ line.options.device, line.options.validate }));
+	TRY_ASSIGN(const std::unique_ptr<Device> device,
+			   Device::create({ line.options.device, line.options.validate, line.options.pipeline_statistics }));
 	logInfo("device {}, driver {}", device->name, device->driver);
 	TRY(drawAndWrite(line, picture_path, subject, *device));
 	if (const uint32_t count = device->validationMessages())

@@ -170,7 +170,7 @@ struct DeviceBuilder
 			create(device.instance, &info, nullptr, &device.messenger_);
 	}
 
-	static Status createLogicalDevice(Device& device)
+	static Status createLogicalDevice(Device& device, bool pipeline_statistics)
 	{
 		TRY_ASSIGN(device.queue_family, chooseQueueFamily(device.physical));
 		DeviceFeatures features;
@@ -184,7 +184,8 @@ struct DeviceBuilder
 		queue.queueCount = 1;
 		queue.pQueuePriorities = &priority;
 		VkDeviceCreateInfo info = { VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO };
-		info.pNext = features.enabledChain();
+		info.pNext = features.enabledChain(pipeline_statistics);
+		device.pipeline_statistics = pipeline_statistics && device.gates.pipeline_statistics;
 		info.queueCreateInfoCount = 1;
 		info.pQueueCreateInfos = &queue;
 		info.enabledExtensionCount = static_cast<uint32_t>(features.extensions().size());
@@ -204,6 +205,11 @@ struct DeviceBuilder
 	{
 		if (device.gates.mesh_shader)
 			load(device, device.functions.draw_mesh_tasks_indirect, "vkCmdDrawMeshTasksIndirectEXT");
+		if (device.pipeline_statistics)
+		{
+			load(device, device.functions.executable_properties, "vkGetPipelineExecutablePropertiesKHR");
+			load(device, device.functions.executable_statistics, "vkGetPipelineExecutableStatisticsKHR");
+		}
 		if (device.gates.debug_names)
 		{
 			load(device, device.functions.set_object_name, "vkSetDebugUtilsObjectNameEXT");
@@ -221,7 +227,7 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceRequest& request)
 		DeviceBuilder::createMessenger(*device);
 	TRY_ASSIGN(device->physical, chooseDevice(device->instance, request.name));
 	describeDevice(*device);
-	TRY(DeviceBuilder::createLogicalDevice(*device));
+	TRY(DeviceBuilder::createLogicalDevice(*device, request.pipeline_statistics));
 	DeviceBuilder::loadFunctions(*device);
 	TRY_ASSIGN(device->allocator, createAllocator(*device));
 	VkPipelineCacheCreateInfo cache = { VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO };

@@ -14,8 +14,9 @@ namespace tessera
 
 struct DeviceRequest
 {
-	std::string name;       // part of a device's name or its number in the system's order; empty: the fastest kind there is
-	bool validate = false;  // core and synchronisation validation
+	std::string name;                  // part of a device's name or its number in the system's order; empty: the fastest kind there is
+	bool validate = false;             // core and synchronisation validation
+	bool pipeline_statistics = false;  // print what each compute pipeline was compiled to (pipeline_statistics.h)
 };
 
 struct DeviceLimits
@@ -50,6 +51,7 @@ public:
 	DeviceLimits limits;
 	std::string name, driver, api;
 	bool is_cpu = false;
+	bool pipeline_statistics = false;  // asked for and offered
 
 	// Validation messages since creation; 0 without --validate.
 	uint32_t validationMessages() const { return validation_messages_; }

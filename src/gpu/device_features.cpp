@@ -69,10 +69,11 @@ void DeviceFeatures::openGates()
 	gates_.ray_query = has(VK_KHR_RAY_QUERY_EXTENSION_NAME);
 	gates_.cluster_acceleration_structure = has("VK_NV_cluster_acceleration_structure");
 	gates_.fragment_barycentric = has("VK_KHR_fragment_shader_barycentric");
+	gates_.pipeline_statistics = has(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
 	gates_.conditional_rendering = has(VK_EXT_CONDITIONAL_RENDERING_EXTENSION_NAME);
 }
 
-const void* DeviceFeatures::enabledChain()
+const void* DeviceFeatures::enabledChain(bool pipeline_statistics)
 {
 	enabled_core_.features.shaderInt64 = VK_TRUE;
 	enabled_core_.features.geometryShader = gates_.fragment_primitive_id;
@@ -94,6 +95,13 @@ const void* DeviceFeatures::enabledChain()
 		enabled_mesh_.meshShader = VK_TRUE;
 		enabled13_.pNext = &enabled_mesh_;
 		extensions_.push_back(VK_EXT_MESH_SHADER_EXTENSION_NAME);
+	}
+	if (pipeline_statistics && gates_.pipeline_statistics)
+	{
+		enabled_statistics_.pipelineExecutableInfo = VK_TRUE;
+		enabled_statistics_.pNext = enabled13_.pNext;
+		enabled13_.pNext = &enabled_statistics_;
+		extensions_.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
 	}
 	return &enabled_core_;
 }

@@ -19,7 +19,7 @@ public:
 	DeviceGates gates() const { return gates_; }
 
 	// pNext chain for vkCreateDevice with exactly the features that are required or whose gate is open.
-	const void* enabledChain();
+	const void* enabledChain(bool pipeline_statistics);
 	const std::vector<const char*>& extensions() const { return extensions_; }
 
 private:
@@ -34,6 +34,9 @@ private:
 	VkPhysicalDeviceVulkan12Features vulkan12_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES };
 	VkPhysicalDeviceVulkan13Features vulkan13_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES };
 	VkPhysicalDeviceMeshShaderFeaturesEXT mesh_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT };
+	VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR enabled_statistics_ = {
+		VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR
+	};
 	VkPhysicalDeviceFeatures2 enabled_core_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2 };
 	VkPhysicalDeviceVulkan12Features enabled12_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES };
 	VkPhysicalDeviceVulkan13Features enabled13_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES };

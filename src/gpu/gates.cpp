@@ -16,6 +16,7 @@ std::vector<Gate> DeviceGates::table() const
 		{ "cluster_acceleration_structure", cluster_acceleration_structure, "acceleration structures of expanded micro-triangles" },
 		{ "fragment_barycentric", fragment_barycentric, "shade computes barycentrics itself" },
 		{ "conditional_rendering", conditional_rendering, "indirect arguments of zero" },
+		{ "pipeline_statistics", pipeline_statistics, "what a pipeline was compiled to is not shown" },
 		{ "debug_names", debug_names, "objects have no names in validation messages" },
 	};
 }

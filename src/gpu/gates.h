@@ -27,6 +27,7 @@ struct DeviceGates
 	bool cluster_acceleration_structure = false;
 	bool fragment_barycentric = false;
 	bool conditional_rendering = false;
+	bool pipeline_statistics = false;  // registers and shared memory of a pipeline, as the driver compiled it
 	bool debug_names = false;
 
 	std::vector<Gate> table() const;

@@ -1,6 +1,7 @@
 #include "gpu/pipeline.h"
 
 #include "base/file.h"
+#include "gpu/pipeline_statistics.h"
 
 #include <cstring>
 #include <utility>
@@ -194,11 +195,13 @@ Result<Pipeline> makeComputePipeline(Device& device, VkPipelineLayout layout, co
 	VkComputePipelineCreateInfo info = { VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO };
 	info.stage = stageInfo(shader, shader_module, specialization);
 	info.layout = layout;
+	info.flags = device.pipeline_statistics ? VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR : 0;
 	VkPipeline pipeline = VK_NULL_HANDLE;
 	const VkResult result = vkCreateComputePipelines(device.handle, device.pipeline_cache, 1, &info, nullptr, &pipeline);
 	vkDestroyShaderModule(device.handle, shader_module, nullptr);
 	VK_TRY(result, "creating the pipeline of {}", shader.name);
 	device.nameObject(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline), shader.name);
+	printPipelineStatistics(device, pipeline, shader.name);
 	return Pipeline(device, pipeline, VK_PIPELINE_BIND_POINT_COMPUTE);
 }
 

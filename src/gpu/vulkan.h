@@ -18,6 +18,8 @@ Error vulkanError(VkResult result, const std::string& what);
 struct ExtensionFunctions
 {
 	PFN_vkCmdDrawMeshTasksIndirectEXT draw_mesh_tasks_indirect = nullptr;
+	PFN_vkGetPipelineExecutablePropertiesKHR executable_properties = nullptr;
+	PFN_vkGetPipelineExecutableStatisticsKHR executable_statistics = nullptr;
 	PFN_vkSetDebugUtilsObjectNameEXT set_object_name = nullptr;
 	PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;
 	PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;

@@ -82,6 +82,7 @@ const std::vector<std::pair<std::string, std::string>> kSamples = {
 	{ "frames", "64" },
 	{ "warmup", "16" },
 	{ "device", "llvmpipe" },
+	{ "pipelines", "" },
 	{ "validate", "" },
 	{ "strict", "" },
 	{ "quiet", "" },
