@@ -32,3 +32,10 @@ find_file(TESSERA_VMA_HEADER vk_mem_alloc.h PATHS ${TESSERA_HEADERS} ${Vulkan_IN
 if(NOT TESSERA_VMA_HEADER)
   message(FATAL_ERROR "vk_mem_alloc.h (Vulkan Memory Allocator) is not installed: run thirdparty/setup.sh")
 endif()
+
+# Nearest points for the error metrics. Version 3 (Debian 12) and 4 (Debian 13) have packages of different names.
+tessera_require(embree)
+add_library(tessera_embree INTERFACE)
+target_include_directories(tessera_embree SYSTEM INTERFACE ${EMBREE_INCLUDE_DIRS})
+target_link_libraries(tessera_embree INTERFACE ${EMBREE_LIBRARY})
+target_compile_definitions(tessera_embree INTERFACE TESSERA_EMBREE_MAJOR=${EMBREE_VERSION_MAJOR})

@@ -17,7 +17,8 @@ mesa_wanted=24                # first major version of lavapipe with all mesh sh
 build_packages=(build-essential cmake ninja-build ccache pkg-config patchelf
 	libvulkan-dev libvulkan1 glslang-tools glslang-dev spirv-tools
 	libtinygltf-dev libmeshoptimizer-dev libglm-dev libcli11-dev libspdlog-dev libfmt-dev libexpected-dev
-	nlohmann-json3-dev libstb-dev libdraco-dev zlib1g-dev)
+	nlohmann-json3-dev libstb-dev libdraco-dev zlib1g-dev libembree-dev)
+run_packages=(librsvg2-bin)
 test_packages=(libgtest-dev libgmock-dev vulkan-validationlayers assimp-testmodels)
 all_packages=(clang clang-tidy clang-format libclang-rt-dev)
 
@@ -218,7 +219,7 @@ unpackNewerHeaders()
 
 setUpDebian()
 {
-	local wanted=("${build_packages[@]}" "${test_packages[@]}")
+	local wanted=("${build_packages[@]}" "${run_packages[@]}" "${test_packages[@]}")
 	local missing mesa_missing=0 mesa_suite=""
 	(( version >= 13 )) && wanted+=(libvulkan-memory-allocator-dev)
 	(( with_all )) && wanted+=("${all_packages[@]}")
@@ -254,6 +255,7 @@ reportOnly()
 	do
 		[[ -r ${VULKAN_SDK:-/nowhere}/include/$header ]] || hasHeader "$header" || missing+=("$header")
 	done
+	hasHeader embree3/rtcore.h || hasHeader embree4/rtcore.h || missing+=(embree4/rtcore.h)
 	if (( ${#missing[@]} == 0 ))
 	then
 		say "everything is there"
@@ -261,7 +263,7 @@ reportOnly()
 	fi
 	say "this system (${system_name}) is not one that is installed for; missing: ${missing[*]}" >&2
 	say "get Vulkan, VMA, glslang and SPIRV-Tools from the Vulkan SDK (set VULKAN_SDK) and the rest from your packages" >&2
-	say "under Debian's names these are: ${build_packages[*]} libvulkan-memory-allocator-dev ${test_packages[*]}" >&2
+	say "under Debian's names these are: ${build_packages[*]} ${run_packages[*]} libvulkan-memory-allocator-dev ${test_packages[*]}" >&2
 	say "(on Ubuntu 24.04 and later apt-get install takes that list, with mesa-vulkan-drivers)" >&2
 	exit 1
 }

@@ -230,6 +230,24 @@ DoublePoint DoubleSurface::at(ClusterRef ref, uint32_t triangle, DomainPoint p) 
 	return point;
 }
 
+dvec3 DoubleSurface::onFinestMip(const BaseTriangle& base, dvec3 weights) const
+{
+	const BuiltScene& built = scene_.built();
+	const auto directions = scene_.directions();
+	const uint32_t v0 = base.v0, v1 = base.v1, v2 = base.v2;
+	const dvec3 point = dvec3(built.positions[v0]) * weights.x + dvec3(built.positions[v1]) * weights.y + dvec3(built.positions[v2]) * weights.z;
+	const Source source = sourceAt(base, weights);
+	if (source.height_map == NO_INDEX)
+		return point;
+	const dvec3 sum = dvec3(directions[v0]) * weights.x + dvec3(directions[v1]) * weights.y + dvec3(directions[v2]) * weights.z;
+	const double length = glm::length(sum);
+	if (!(length > 0))
+		return point;
+	const HeightMapData& map = built.height_maps[source.height_map];
+	const double height = bilinear(map, 0, source.uv);
+	return point + sum * ((height * map.record.factor + map.record.offset) * view_.displacement_scale / length);
+}
+
 double DoubleSurface::realFactor(ClusterRef ref, uint32_t triangle, DomainPoint p, DomainPoint q) const
 {
 	const BaseTriangle base = scene_.base(ref, triangle);

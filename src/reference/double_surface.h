@@ -33,6 +33,10 @@ public:
 
 	DoublePoint at(ClusterRef ref, uint32_t triangle, DomainPoint p) const;
 
+	// The displaced point on mip 0, whatever the view, in mesh units: the surface that error is measured against. `weights` are those of
+	// the three corners; their sum is 1.
+	dvec3 onFinestMip(const BaseTriangle& base, dvec3 weights) const;
+
 	// Length of the undisplaced edge over the wanted segment length at its nearer end: L * focal_px / (rate * max(near, d)), before it
 	// is rounded and limited. The tess factor is clamp(floor(this + 1/2), 1, limit); within 1e-5 of a half (relative; farther when the eye
 	// lies on the mesh to a few ulps) the float comparison may fall either way.

@@ -1,0 +1,32 @@
+// Largest, root mean square and 99th percentile of weighted values, and how far two such sets are apart.
+#pragma once
+#include <span>
+#include <vector>
+
+namespace tessera::report
+{
+
+struct Figures
+{
+	double max = 0, rms = 0, p99 = 0;
+
+	bool operator==(const Figures&) const = default;
+};
+
+struct Weighted
+{
+	double value;   // >= 0
+	double weight;  // >= 0
+};
+
+// All 0 when nothing has weight. p99: the least value that 99 % of the weight does not exceed. Reorders `values`.
+Figures figuresOf(std::span<Weighted> values);
+
+// Per figure the larger.
+Figures largerOf(const Figures& a, const Figures& b);
+Figures scaled(const Figures& figures, double factor);
+
+// The largest relative difference of any figure, of the larger of the two: 0..1.
+double relativeChange(const Figures& a, const Figures& b);
+
+}  // namespace tessera::report
