@@ -8,54 +8,36 @@
 // Pattern of each part, and 1 when its triangles are emitted with two corners exchanged.
 shared PatternRange part_patterns[BATCH_MAX_PARTS];
 shared uint part_turned[BATCH_MAX_PARTS];
-// Sums of the parts before each: vertices in the low, triangles in the high half.
-shared uint part_sums[BATCH_MAX_PARTS + 1u];
+// Micro-vertices before each part in the low, micro-triangles in the high half; all ones past the last.
+shared uint part_sums[BATCH_MAX_PARTS];
 
 PatternRange patternOf(RasterInputs inputs, DomainPiece piece)
 {
 	return inputs.table.patterns.at[patternIndex(piece.a, piece.b, piece.c)];
 }
 
-// Inclusive scan of every part's size. Ends with a barrier.
-void scanParts(uint size)
+// One lane a part.
+void loadPart(RasterInputs inputs, uint lane, uint part, uint first, DomainPiece piece)
 {
-	uint lane = gl_LocalInvocationIndex;
-	if (lane == 0u)
-		part_sums[0] = 0u;
-	if (lane < BATCH_MAX_PARTS)
-		part_sums[lane + 1u] = size;
-	barrier();
-	for (uint step = 1u; step < BATCH_MAX_PARTS; step *= 2u)
-	{
-		uint before = lane >= step && lane < BATCH_MAX_PARTS ? part_sums[lane + 1u - step] : 0u;
-		barrier();
-		if (lane < BATCH_MAX_PARTS)
-			part_sums[lane + 1u] += before;
-		barrier();
-	}
+	uint turned = piece.mirror;
+	if (HAS_MIRRORED_INSTANCES)
+		turned ^= inputs.instances.at[inputs.visible_clusters.at[piece.visible_cluster].instance].mirrored;
+	part_patterns[lane] = patternOf(inputs, piece);
+	part_turned[lane] = turned;
+	part_sums[lane] = inputs.part_offsets.at[part] - inputs.part_offsets.at[first];
 }
 
 // Reads the layout of a batch. Ends with a barrier.
 void loadBatch(RasterInputs inputs, uint batch)
 {
 	uint lane = gl_LocalInvocationIndex;
-	uint size = 0u;
+	uint first = batchFirst(batch);
+	if (lane < BATCH_MAX_PARTS)
+		part_sums[lane] = 0xffffffffu;
 	if (lane < batchCount(batch))
-	{
-		DomainPiece piece = unpackTriangle(inputs.part_triangles.at[batchFirst(batch) + lane]);
-		PatternRange pattern = patternOf(inputs, piece);
-		uint turned = piece.mirror;
-		if (HAS_MIRRORED_INSTANCES)
-			turned ^= inputs.instances.at[inputs.visible_clusters.at[piece.visible_cluster].instance].mirrored;
-		part_patterns[lane] = pattern;
-		part_turned[lane] = turned;
-		size = patternVertices(pattern) | (patternTriangles(pattern) << 16);
-	}
-	scanParts(size);
+		loadPart(inputs, lane, first + lane, first, unpackTriangle(inputs.part_triangles.at[first + lane]));
+	barrier();
 }
-
-uint batchVertices() { return part_sums[BATCH_MAX_PARTS] & 0xffffu; }
-uint batchTriangles() { return part_sums[BATCH_MAX_PARTS] >> 16; }
 
 // The part that owns entry `index` of the half of the sums that starts at bit `shift`.
 uint owningPart(uint index, uint shift)
@@ -73,10 +55,9 @@ struct MicroTriangle
 	uint payload;
 };
 
-// Micro-triangle `index` of a batch.
-MicroTriangle batchTriangle(RasterInputs inputs, uint index, uint batch)
+// Micro-triangle `index` of a batch, of part `owner`.
+MicroTriangle batchTriangle(RasterInputs inputs, uint index, uint owner, uint batch)
 {
-	uint owner = owningPart(index, 16u);
 	uint triangle = index - (part_sums[owner] >> 16);
 	MicroTriangle result;
 	result.vertices = patternTriangle(triangle, part_patterns[owner], inputs.table, part_turned[owner]) + (part_sums[owner] & 0xffffu);

@@ -4,17 +4,20 @@
 #include "shared/lists.h"
 
 // Reserves `count` entries and returns the first. `wanted` keeps counting past capacity (saturating at 2^31, far above any
-// capacity); the caller writes only below capacity. Keeps the rows of an indirect draw up with the entries.
+// capacity); the caller writes only below capacity. Where entries are drawn, the rows of the indirect draw keep up with them.
 uint reserveEntries(ListHeadRef heads, uint list, uint count)
 {
 	if (heads.at[list].wanted >= 0x80000000u)
 		return 0x80000000u;
 	uint first = atomicAdd(heads.at[list].wanted, count);
-	uint width = heads.at[list].group_width;
-	uint end = min(first + count, heads.at[list].capacity);
-	uint rows = (end + width - 1u) / width;
-	if (rows > (first + width - 1u) / width)
-		atomicMax(heads.at[list].group_rows, rows);
+	if (KEEPS_VERTICES)
+	{
+		uint width = heads.at[list].group_width;
+		uint end = min(first + count, heads.at[list].capacity);
+		uint rows = (end + width - 1u) / width;
+		if (rows > (first + width - 1u) / width)
+			atomicMax(heads.at[list].group_rows, rows);
+	}
 	return first;
 }
 

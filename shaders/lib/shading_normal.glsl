@@ -88,7 +88,7 @@ ShadingSurface displacedNormal(Surface surface, BaseTriangle base, vec3 weights,
 	vec3 p0 = surface.positions.at[base.v0], p1 = surface.positions.at[base.v1], p2 = surface.positions.at[base.v2];
 	vec3 d0 = surface.directions.at[base.v0], d1 = surface.directions.at[base.v1], d2 = surface.directions.at[base.v2];
 	vec2 uv0 = surface.uvs.at[base.v0], uv1 = surface.uvs.at[base.v1], uv2 = surface.uvs.at[base.v2];
-	HeightSource source = ownHeightSource(surface, base, weights);
+	HeightSource source = ownHeightSource(triangleCorners(surface, base), base.height_map, weights);
 	vec3 base_point = weightedVec3(p0, p1, p2, weights);
 
 	uint level_count = surface.height_maps.at[base.height_map].level_count;

@@ -7,14 +7,15 @@
 #ifndef TESSERA_LIB_SOFT_RASTER
 #define TESSERA_LIB_SOFT_RASTER
 #include "lib/visibility_buffer.glsl"
+#include "shared/lists.h"
 #include "shared/view.h"
 #include "shared/visibility.h"
 
 const int SUBPIXELS = 256;
 const float GUARD_PX = 16384.0;    // beyond this, positions would not fit the integers
 const int SMALL_BOX_PX = 256;      // pixels of bounding box up to which one lane does it alone
-const uint MAX_RASTER_VERTICES = 128u;
-const uint MAX_RASTER_TRIANGLES = 128u;
+const uint MAX_RASTER_VERTICES = RASTER_BATCH_VERTICES;
+const uint MAX_RASTER_TRIANGLES = RASTER_BATCH_TRIANGLES;
 
 struct ScreenVertex
 {
@@ -23,9 +24,9 @@ struct ScreenVertex
 };
 
 shared vec4 raster_clip[MAX_RASTER_VERTICES];
-shared ScreenVertex raster_screen[MAX_RASTER_VERTICES];
-shared uint raster_inside[MAX_RASTER_VERTICES];    // 1: before the near plane and inside the guard band
-shared uvec2 raster_wide[MAX_RASTER_TRIANGLES];    // corners (3 x 8 bits, bit 31: two-sided) and payload of what one lane left
+// Screen position, depth, and 1 when the vertex lies before the near plane and inside the guard band.
+shared uvec4 raster_screen[MAX_RASTER_VERTICES];
+shared uint raster_wide[MAX_RASTER_TRIANGLES];  // triangles that one lane left to all
 shared uint raster_wide_count;
 shared vec4 raster_polygon[2][9];
 shared uint raster_polygon_size;
@@ -69,12 +70,19 @@ void beginRaster()
 
 void storeRasterVertex(uint index, vec4 clip, View view)
 {
-	bool inside = insideGuard(clip, view);
+	uvec4 stored = uvec4(0u);
+	if (insideGuard(clip, view))
+	{
+		ScreenVertex screen = toScreen(clip, view);
+		stored = uvec4(uvec2(screen.position), floatBitsToUint(screen.depth), 1u);
+	}
 	raster_clip[index] = clip;
-	raster_inside[index] = inside ? 1u : 0u;
-	if (inside)
-		raster_screen[index] = toScreen(clip, view);
+	raster_screen[index] = stored;
 }
+
+bool allInside(uvec4 a, uvec4 b, uvec4 c) { return (a.w & b.w & c.w) != 0u; }
+
+ScreenVertex screenVertex(uvec4 stored) { return ScreenVertex(ivec2(stored.xy), uintBitsToFloat(stored.z)); }
 
 void writeVisibility(VisibilityRef target, ivec2 pixel, float depth, uint payload, View view)
 {
@@ -189,23 +197,18 @@ void rasterWide(VisibilityRef target, ScreenVertex a, ScreenVertex b, ScreenVert
 		}
 }
 
-void leaveWide(uvec3 corners, uint payload, bool two_sided)
-{
-	uint slot = atomicAdd(raster_wide_count, 1u);
-	raster_wide[slot] = uvec2(corners.x | (corners.y << 8) | (corners.z << 16) | (two_sided ? 0x80000000u : 0u), payload);
-}
+void leaveWide(uint triangle) { raster_wide[atomicAdd(raster_wide_count, 1u)] = triangle; }
 
-// One lane takes one triangle: does it alone when it is small, leaves it to the workgroup otherwise.
-void rasterTriangle(VisibilityRef target, uvec3 corners, uint payload, bool two_sided, View view)
+// One lane takes triangle `triangle` of its workgroup: does it alone when it is small, leaves it to finishRaster otherwise.
+void rasterTriangle(VisibilityRef target, uint triangle, uvec3 corners, uint payload, bool two_sided, View view)
 {
-	if ((raster_inside[corners.x] & raster_inside[corners.y] & raster_inside[corners.z]) == 0u)
+	uvec4 stored_a = raster_screen[corners.x], stored_b = raster_screen[corners.y], stored_c = raster_screen[corners.z];
+	if (!allInside(stored_a, stored_b, stored_c))
 	{
-		leaveWide(corners, payload, two_sided);
+		leaveWide(triangle);
 		return;
 	}
-	ScreenVertex a = raster_screen[corners.x];
-	ScreenVertex b = raster_screen[corners.y];
-	ScreenVertex c = raster_screen[corners.z];
+	ScreenVertex a = screenVertex(stored_a), b = screenVertex(stored_b), c = screenVertex(stored_c);
 	PixelBox box = pixelBox(a.position, b.position, c.position, view);
 	if (any(greaterThan(box.low, box.high)))
 		return;
@@ -213,7 +216,7 @@ void rasterTriangle(VisibilityRef target, uvec3 corners, uint payload, bool two_
 	ivec2 size = box.high - box.low + 1;
 	if (max(span.x, span.y) >= 64 * SUBPIXELS || size.x * size.y > SMALL_BOX_PX)
 	{
-		leaveWide(corners, payload, two_sided);
+		leaveWide(triangle);
 		return;
 	}
 	rasterSmall(target, a, b, c, box, payload, two_sided, view);
@@ -282,29 +285,22 @@ void rasterWideCorners(VisibilityRef target, ScreenVertex a, ScreenVertex b, Scr
 	rasterWide(target, a, b, c, pixelBox(a.position, b.position, c.position, view), payload, view);
 }
 
-// The whole workgroup does what single lanes left. Begins and ends with a barrier.
-void finishRaster(VisibilityRef target, View view)
+// The whole workgroup does one triangle that a single lane left.
+void rasterLeft(VisibilityRef target, uvec3 corners, uint payload, bool two_sided, View view)
 {
-	barrier();
-	for (uint i = 0u; i < raster_wide_count; ++i)
+	uvec4 a = raster_screen[corners.x], b = raster_screen[corners.y], c = raster_screen[corners.z];
+	if (allInside(a, b, c))
 	{
-		uvec2 wide = raster_wide[i];
-		uvec3 corners = uvec3(wide.x & 0xffu, (wide.x >> 8) & 0xffu, (wide.x >> 16) & 0xffu);
-		bool two_sided = (wide.x & 0x80000000u) != 0u;
-		if ((raster_inside[corners.x] & raster_inside[corners.y] & raster_inside[corners.z]) != 0u)
-		{
-			rasterWideCorners(target, raster_screen[corners.x], raster_screen[corners.y], raster_screen[corners.z], wide.y, two_sided, view);
-			continue;
-		}
-		if (gl_LocalInvocationIndex == 0u)
-			clipPolygon(raster_clip[corners.x], raster_clip[corners.y], raster_clip[corners.z], view);
-		barrier();
-		// Five planes: the clipped polygon lies in the second array.
-		for (uint corner = 2u; corner < raster_polygon_size; ++corner)
-			rasterWideCorners(target, toScreen(raster_polygon[1][0], view), toScreen(raster_polygon[1][corner - 1u], view),
-			                  toScreen(raster_polygon[1][corner], view), wide.y, two_sided, view);
-		barrier();
+		rasterWideCorners(target, screenVertex(a), screenVertex(b), screenVertex(c), payload, two_sided, view);
+		return;
 	}
+	if (gl_LocalInvocationIndex == 0u)
+		clipPolygon(raster_clip[corners.x], raster_clip[corners.y], raster_clip[corners.z], view);
+	barrier();
+	// Five planes: the clipped polygon lies in the second array.
+	for (uint corner = 2u; corner < raster_polygon_size; ++corner)
+		rasterWideCorners(target, toScreen(raster_polygon[1][0], view), toScreen(raster_polygon[1][corner - 1u], view),
+		                  toScreen(raster_polygon[1][corner], view), payload, two_sided, view);
 	barrier();
 }
 

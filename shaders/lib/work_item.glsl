@@ -36,14 +36,13 @@ WorkItem clusterItem(RasterInputs inputs, FullCluster full)
 // All lanes together: the parts go into shared memory.
 WorkItem batchItem(RasterInputs inputs, Batch batch)
 {
-	loadBatch(inputs, batch.parts);
 	loadBatchParts(inputs, batch.parts);
 	WorkItem item;
 	item.is_batch = true;
 	item.parts = batch.parts;
 	item.first_vertex = batch.first_vertex;
-	item.vertex_count = batchVertices();
-	item.triangle_count = batchTriangles();
+	item.vertex_count = batchVertices(batch);
+	item.triangle_count = batchTriangles(batch);
 	return item;
 }
 
@@ -64,7 +63,7 @@ vec4 itemVertex(RasterInputs inputs, WorkItem item, uint index)
 	if (HAS_TESSELLATION && item.is_batch)
 	{
 		uint owner = owningPart(index, 0u);
-		placement = part_placements[owner];
+		placement = partPlacement(owner);
 		at = batchSample(inputs, index, owner);
 	}
 	else
@@ -78,7 +77,7 @@ vec4 itemVertex(RasterInputs inputs, WorkItem item, uint index)
 MicroTriangle itemTriangle(RasterInputs inputs, WorkItem item, uint index)
 {
 	if (HAS_TESSELLATION && item.is_batch)
-		return batchTriangle(inputs, index, item.parts);
+		return batchTriangle(inputs, index, owningPart(index, 16u), item.parts);
 	return MicroTriangle(clusterTriangle(inputs, item.cluster, item.instance, index), packPayload(KIND_FULL_CLUSTER, item.visible_cluster, index));
 }
 

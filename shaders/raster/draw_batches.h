@@ -13,7 +13,7 @@ struct DrawBatchesArgs
 	GPU_PTR(Batch) batches;
 	GPU_PTR(vec4) vertices;
 };
-SHARED_LAYOUT(DrawBatchesArgs, 88, vertices, 80)
+SHARED_LAYOUT(DrawBatchesArgs, 96, vertices, 88)
 
 SHARED_END
 

@@ -13,7 +13,7 @@ struct DrawClustersArgs
 	GPU_PTR(FullCluster) full_clusters;
 	GPU_PTR(vec4) vertices;
 };
-SHARED_LAYOUT(DrawClustersArgs, 88, vertices, 80)
+SHARED_LAYOUT(DrawClustersArgs, 96, vertices, 88)
 
 SHARED_END
 

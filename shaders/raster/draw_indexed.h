@@ -13,7 +13,7 @@ struct DrawIndexedArgs
 	GPU_PTR(uint) expanded_triangles;
 	uint first_payload;  // where the payloads begin in it
 };
-SHARED_LAYOUT(DrawIndexedArgs, 88, first_payload, 80)
+SHARED_LAYOUT(DrawIndexedArgs, 96, first_payload, 88)
 
 SHARED_END
 

@@ -16,7 +16,7 @@ struct EvaluateVerticesArgs
 	GPU_PTR(vec4) vertices;  // clip coordinates
 	GPU_PTR(uint) indices;   // 0 unless drawn indexed
 };
-SHARED_LAYOUT(EvaluateVerticesArgs, 112, indices, 104)
+SHARED_LAYOUT(EvaluateVerticesArgs, 120, indices, 112)
 
 SHARED_END
 

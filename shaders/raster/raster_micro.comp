@@ -18,11 +18,11 @@ layout(local_size_x_id = 0) in;
 
 layout(push_constant, scalar) uniform Args { RasterMicroArgs args; };
 
-bool isTwoSided(uint material)
+bool isTwoSided(WorkItem item, uint triangle)
 {
 	if (!HAS_MIXED_SIDES)
 		return !HAS_SINGLE_SIDED;
-	return (args.inputs.material_flags.at[material] & MATERIAL_DOUBLE_SIDED) != 0u;
+	return (args.inputs.material_flags.at[itemMaterial(item, triangle)] & MATERIAL_DOUBLE_SIDED) != 0u;
 }
 
 void rasterItem(WorkItem item, View view)
@@ -35,9 +35,15 @@ void rasterItem(WorkItem item, View view)
 	for (uint t = gl_LocalInvocationIndex; t < item.triangle_count; t += gl_WorkGroupSize.x)
 	{
 		MicroTriangle triangle = itemTriangle(args.inputs, item, t);
-		rasterTriangle(target, triangle.vertices, triangle.payload, isTwoSided(itemMaterial(item, t)), view);
+		rasterTriangle(target, t, triangle.vertices, triangle.payload, isTwoSided(item, t), view);
 	}
-	finishRaster(target, view);
+	barrier();
+	for (uint i = 0u; i < raster_wide_count; ++i)
+	{
+		MicroTriangle triangle = itemTriangle(args.inputs, item, raster_wide[i]);
+		rasterLeft(target, triangle.vertices, triangle.payload, isTwoSided(item, raster_wide[i]), view);
+	}
+	barrier();
 }
 
 void main()

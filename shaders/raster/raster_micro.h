@@ -15,7 +15,7 @@ struct RasterMicroArgs
 	GPU_PTR(Batch) batches;  // 0 when nothing is tessellated
 	uint64_t visibility;     // address of a 64-bit word per pixel: depth << 32 | payload
 };
-SHARED_LAYOUT(RasterMicroArgs, 104, visibility, 96)
+SHARED_LAYOUT(RasterMicroArgs, 112, visibility, 104)
 
 SHARED_END
 

@@ -31,7 +31,7 @@ struct ShadeArgs
 	uint rounds;       // round | round_count << 16
 	uint centre_only;  // 1: micro-triangles of parts are about a pixel or less and shaded by their centre
 };
-SHARED_LAYOUT(ShadeArgs, 112, centre_only, 104)
+SHARED_LAYOUT(ShadeArgs, 120, centre_only, 112)
 
 SHARED_END
 

@@ -68,12 +68,26 @@ SHARED_LAYOUT(FullCluster, 8, first_vertex, 4)
 struct Batch
 {
 	uint parts;         // packBatch
+	uint counts;        // micro-vertices | micro-triangles << 16
 	uint first_vertex;  // its range of micro_vertices, where vertices are kept there
 };
-SHARED_LAYOUT(Batch, 8, first_vertex, 4)
+SHARED_LAYOUT(Batch, 12, first_vertex, 8)
 #define BATCH_MAX_PARTS 32u
+#define BATCH_WINDOW 128u  // parts that are packed together
+// What a mesh shader can emit at once, and what one pattern can have.
 #define BATCH_MAX_VERTICES 96u
 #define BATCH_MAX_TRIANGLES 128u
+// Where compute rasterises: several patterns, so that what a workgroup loads for them is loaded side by side.
+#define RASTER_BATCH_VERTICES 384u
+#define RASTER_BATCH_TRIANGLES 512u
+SHARED_FN uint batchVertices(Batch batch)
+{
+	return batch.counts & 0xffffu;
+}
+SHARED_FN uint batchTriangles(Batch batch)
+{
+	return batch.counts >> 16;
+}
 SHARED_FN uint packBatch(uint first_part, uint part_count)
 {
 	return first_part | ((part_count - 1u) << 24);

@@ -13,10 +13,11 @@ struct RasterInputs
 	GPU_PTR(ClusterRecord) clusters;
 	GPU_PTR(ClusterRef) visible_clusters;
 	GPU_PTR(DomainTriangle) part_triangles;  // 0 when nothing is tessellated
+	GPU_PTR(uint) part_offsets;              // per part: micro-vertices | micro-triangles << 16 before it among its neighbours
 	GPU_PTR(uint) material_flags;            // MATERIAL_*, per material
 	TableView table;
 };
-SHARED_LAYOUT(RasterInputs, 64, table, 40)
+SHARED_LAYOUT(RasterInputs, 72, table, 48)
 
 #define MATERIAL_DOUBLE_SIDED 1u
 

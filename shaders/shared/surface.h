@@ -18,6 +18,21 @@ struct BaseTriangle
 	uint height_map;  // of its material; NO_INDEX: not displaced
 };
 
+// What the points of a base triangle are interpolated from.
+struct TriangleCorners
+{
+	vec3 position0;  // mesh units
+	vec3 position1;
+	vec3 position2;
+	vec3 direction0;  // not set, as all below, when nothing is displaced
+	vec3 direction1;
+	vec3 direction2;
+	vec2 uv0;
+	vec2 uv1;
+	vec2 uv2;
+	vec3 densities;  // height texels per mesh unit at the three corners
+};
+
 // Where a height is read: coordinate, density and map, which an owner across a seam may have replaced.
 struct HeightSource
 {
@@ -96,24 +111,35 @@ SHARED_FN BaseTriangle baseTriangle(Surface surface, ClusterRecord cluster, uint
 	return base;
 }
 
-// The undisplaced surface, mesh units.
-SHARED_FN precise vec3 basePoint(Surface surface, BaseTriangle base, vec3 weights)
+SHARED_FN TriangleCorners triangleCorners(Surface surface, BaseTriangle base)
 {
-	return weightedVec3(AT(vec3, surface.positions, base.v0), AT(vec3, surface.positions, base.v1), AT(vec3, surface.positions, base.v2), weights);
+	TriangleCorners corners;
+	corners.position0 = AT(vec3, surface.positions, base.v0);
+	corners.position1 = AT(vec3, surface.positions, base.v1);
+	corners.position2 = AT(vec3, surface.positions, base.v2);
+	if (HAS_DISPLACEMENT)
+	{
+		corners.direction0 = AT(vec3, surface.directions, base.v0);
+		corners.direction1 = AT(vec3, surface.directions, base.v1);
+		corners.direction2 = AT(vec3, surface.directions, base.v2);
+		corners.uv0 = AT(vec2, surface.uvs, base.v0);
+		corners.uv1 = AT(vec2, surface.uvs, base.v1);
+		corners.uv2 = AT(vec2, surface.uvs, base.v2);
+		corners.densities.x = AT(float, surface.densities, base.v0);
+		corners.densities.y = AT(float, surface.densities, base.v1);
+		corners.densities.z = AT(float, surface.densities, base.v2);
+	}
+	return corners;
 }
 
 // What the triangle itself says about the height at a point.
-SHARED_FN HeightSource ownHeightSource(Surface surface, BaseTriangle base, vec3 weights)
+SHARED_FN HeightSource ownHeightSource(TriangleCorners corners, uint height_map, vec3 weights)
 {
-	vec2 uv0 = AT(vec2, surface.uvs, base.v0);
-	vec2 uv1 = AT(vec2, surface.uvs, base.v1);
-	vec2 uv2 = AT(vec2, surface.uvs, base.v2);
 	HeightSource source;
-	source.uv.x = weighted(uv0.x, uv1.x, uv2.x, weights);
-	source.uv.y = weighted(uv0.y, uv1.y, uv2.y, weights);
-	source.density =
-		weighted(AT(float, surface.densities, base.v0), AT(float, surface.densities, base.v1), AT(float, surface.densities, base.v2), weights);
-	source.height_map = base.height_map;
+	source.uv.x = weighted(corners.uv0.x, corners.uv1.x, corners.uv2.x, weights);
+	source.uv.y = weighted(corners.uv0.y, corners.uv1.y, corners.uv2.y, weights);
+	source.density = weighted(corners.densities.x, corners.densities.y, corners.densities.z, weights);
+	source.height_map = height_map;
 	return source;
 }
 
@@ -153,11 +179,12 @@ SHARED_FN HeightSource vertexHeightSource(Surface surface, uint vertex, uint hei
 	return source;
 }
 
-// The height source at a domain point: the owner's on seam edges and at corners, else the triangle's own.
-SHARED_FN HeightSource heightSource(Surface surface, BaseTriangle base, DomainPoint p, vec3 weights)
+// The height source at a domain point: the owner's on seam edges and at corners, else the triangle's own. `on_seam`: false
+// only when no edge or corner of the triangle has another owner.
+SHARED_FN HeightSource heightSource(Surface surface, BaseTriangle base, TriangleCorners corners, bool on_seam, DomainPoint p, vec3 weights)
 {
 	uint zeros = (p.u == 0u ? 1u : 0u) | (p.v == 0u ? 2u : 0u) | (domainW(p) == 0u ? 4u : 0u);
-	if (HAS_SEAMS && zeros != 0u)
+	if (HAS_SEAMS && on_seam && zeros != 0u)
 	{
 		if (zeros == 6u)
 			return vertexHeightSource(surface, base.v0, base.height_map);
@@ -169,7 +196,7 @@ SHARED_FN HeightSource heightSource(Surface surface, BaseTriangle base, DomainPo
 		if ((triangleSeamFlags(base.flags) & (1u << edge)) != 0u)
 			return seamEdgeSource(surface, base, edge, weights);
 	}
-	return ownHeightSource(surface, base, weights);
+	return ownHeightSource(corners, base.height_map, weights);
 }
 
 // Displacement along the direction, mesh units. `base_point` decides the mip level: a function of the point alone.
@@ -207,21 +234,26 @@ struct SurfaceSample
 	HeightSource source;
 };
 
-// The sample at domain point p of a base triangle.
-SHARED_FN SurfaceSample sampleAtPoint(Surface surface, BaseTriangle base, DomainPoint p)
+// The sample at domain point p of a base triangle, given its corners. `on_seam` as in heightSource.
+SHARED_FN SurfaceSample sampleAtCorners(Surface surface, BaseTriangle base, TriangleCorners corners, bool on_seam, DomainPoint p)
 {
 	precise vec3 weights = domainWeights(p);
 	SurfaceSample result;
-	result.base = basePoint(surface, base, weights);
+	result.base = weightedVec3(corners.position0, corners.position1, corners.position2, weights);
 	result.direction = vec3(0.0f, 0.0f, 0.0f);
 	result.source.height_map = NO_INDEX;
 	if (HAS_DISPLACEMENT)
 	{
-		result.direction = weightedVec3(AT(vec3, surface.directions, base.v0), AT(vec3, surface.directions, base.v1),
-										AT(vec3, surface.directions, base.v2), weights);
-		result.source = heightSource(surface, base, p, weights);
+		result.direction = weightedVec3(corners.direction0, corners.direction1, corners.direction2, weights);
+		result.source = heightSource(surface, base, corners, on_seam, p, weights);
 	}
 	return result;
+}
+
+// The sample at domain point p of a base triangle.
+SHARED_FN SurfaceSample sampleAtPoint(Surface surface, BaseTriangle base, DomainPoint p)
+{
+	return sampleAtCorners(surface, base, triangleCorners(surface, base), true, p);
 }
 
 // The sample at a cluster's vertex: bit-equal to sampleAtPoint at that corner of any of its triangles.

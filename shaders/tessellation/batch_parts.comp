@@ -1,9 +1,10 @@
 // batch_parts: pack consecutive part triangles into batches, each for one workgroup of the rasterising stages.
 //
 //   in   part_triangles   DomainTriangle[]   from cluster_classify and triangle_split
-//   out  batches          Batch[]            first part and count; at most 32 parts, 96 vertices, 128 triangles
+//   out  batches          Batch[]            first part and count; at most 32 parts, and what the stage that draws can hold
+//   out  part_offsets     uint[]             micro-vertices and micro-triangles before each part
 //
-// One workgroup takes PARTS_PER_GROUP parts at a time: prefix sums of their vertices and triangles give, for every part,
+// One workgroup takes BATCH_WINDOW parts at a time: prefix sums of their vertices and triangles give, for every part,
 // where a batch that starts there would end; pointer jumping marks the starts that are reached from the first.
 // At most one batch per part, so batches cannot overflow while its input fits.
 // Host: src/pipeline/tessellation/batch_parts.cpp   Test: tests/gpu/tessellation_test.cpp
@@ -13,15 +14,13 @@
 #include "tessellation/batch_parts.h"
 #include "lib/lists.glsl"
 
-const uint PARTS_PER_GROUP = 128u;
-
-layout(local_size_x = 128) in;
+layout(local_size_x = BATCH_WINDOW) in;
 layout(push_constant, scalar) uniform Args { BatchPartsArgs args; };
 
 // Sums of all parts before index i: vertices in the low, triangles in the high half (128 x 128 fits 16 bits).
-shared uint sums[PARTS_PER_GROUP + 1u];
-shared uint jumps[PARTS_PER_GROUP + 1u];
-shared uint marks[PARTS_PER_GROUP + 1u];
+shared uint sums[BATCH_WINDOW + 1u];
+shared uint jumps[BATCH_WINDOW + 1u];
+shared uint marks[BATCH_WINDOW + 1u];
 shared uint batch_count;
 shared uint first_batch;
 shared uint first_vertex;
@@ -43,7 +42,7 @@ void scan(uint size)
 	if (lane == 0u)
 		sums[0] = 0u;
 	barrier();
-	for (uint step = 1u; step < PARTS_PER_GROUP; step *= 2u)
+	for (uint step = 1u; step < BATCH_WINDOW; step *= 2u)
 	{
 		uint before = lane >= step ? sums[lane + 1u - step] : 0u;
 		barrier();
@@ -55,7 +54,7 @@ void scan(uint size)
 bool fits(uint from, uint to)
 {
 	uint size = sums[to] - sums[from];
-	return to - from <= BATCH_MAX_PARTS && (size & 0xffffu) <= BATCH_MAX_VERTICES && (size >> 16) <= BATCH_MAX_TRIANGLES;
+	return to - from <= BATCH_MAX_PARTS && (size & 0xffffu) <= args.most_vertices && (size >> 16) <= args.most_triangles;
 }
 
 // End of a batch that starts at `from`: the sums grow, so a binary search finds it. A single part always fits.
@@ -78,7 +77,7 @@ uint batchEnd(uint from, uint count)
 void markStarts()
 {
 	uint lane = gl_LocalInvocationIndex;
-	for (uint reach = 1u; reach < PARTS_PER_GROUP; reach *= 2u)
+	for (uint reach = 1u; reach < BATCH_WINDOW; reach *= 2u)
 	{
 		uint jump = jumps[lane];
 		bool marked = marks[lane] != 0u;
@@ -95,19 +94,19 @@ void main()
 {
 	uint lane = gl_LocalInvocationIndex;
 	uint part_count = entriesOf(args.heads, LIST_PART_TRIANGLES);
-	for (uint first = gl_WorkGroupID.x * PARTS_PER_GROUP; first < part_count; first += gl_NumWorkGroups.x * PARTS_PER_GROUP)
+	for (uint first = gl_WorkGroupID.x * BATCH_WINDOW; first < part_count; first += gl_NumWorkGroups.x * BATCH_WINDOW)
 	{
-		uint count = min(PARTS_PER_GROUP, part_count - first);
+		uint count = min(BATCH_WINDOW, part_count - first);
 		uint size = partSize(first + lane, count);
 		scan(size);
 
-		uint end = lane < count ? batchEnd(lane, count) : PARTS_PER_GROUP;
-		jumps[lane] = lane < count && end < count ? end : PARTS_PER_GROUP;
+		uint end = lane < count ? batchEnd(lane, count) : BATCH_WINDOW;
+		jumps[lane] = lane < count && end < count ? end : BATCH_WINDOW;
 		marks[lane] = lane == 0u ? 1u : 0u;
 		if (lane == 0u)
 		{
-			jumps[PARTS_PER_GROUP] = PARTS_PER_GROUP;
-			marks[PARTS_PER_GROUP] = 0u;
+			jumps[BATCH_WINDOW] = BATCH_WINDOW;
+			marks[BATCH_WINDOW] = 0u;
 			batch_count = 0u;
 		}
 		barrier();
@@ -119,15 +118,17 @@ void main()
 		if (lane == 0u)
 		{
 			first_batch = reserveEntries(args.heads, LIST_BATCHES, batch_count);
-			addMicroTriangles(args.counts, sums[PARTS_PER_GROUP] >> 16);
+			addMicroTriangles(args.counts, sums[BATCH_WINDOW] >> 16);
 			if (KEEPS_VERTICES)
-				first_vertex = reserveEntries(args.heads, LIST_MICRO_VERTICES, sums[PARTS_PER_GROUP] & 0xffffu);
+				first_vertex = reserveEntries(args.heads, LIST_MICRO_VERTICES, sums[BATCH_WINDOW] & 0xffffu);
 			if (EXPANDS_TRIANGLES)
-				reserveEntries(args.heads, LIST_EXPANDED_TRIANGLES, sums[PARTS_PER_GROUP] >> 16);
+				reserveEntries(args.heads, LIST_EXPANDED_TRIANGLES, sums[BATCH_WINDOW] >> 16);
 		}
 		barrier();
 		if (starts && first_batch + place < args.heads.at[LIST_BATCHES].capacity)
-			args.batches.at[first_batch + place] = Batch(packBatch(first + lane, end - lane), first_vertex + (sums[lane] & 0xffffu));
+			args.batches.at[first_batch + place] = Batch(packBatch(first + lane, end - lane), sums[end] - sums[lane], first_vertex + (sums[lane] & 0xffffu));
+		if (lane < count)
+			args.part_offsets.at[first + lane] = sums[lane];
 		barrier();
 	}
 }

@@ -13,8 +13,11 @@ struct BatchPartsArgs
 	GPU_PTR(DomainTriangle) part_triangles;
 	GPU_PTR(PatternRange) patterns;
 	GPU_PTR(Batch) batches;
+	GPU_PTR(uint) part_offsets;
+	uint most_vertices;  // of a batch
+	uint most_triangles;
 };
-SHARED_LAYOUT(BatchPartsArgs, 40, batches, 32)
+SHARED_LAYOUT(BatchPartsArgs, 56, most_triangles, 52)
 
 SHARED_END
 

@@ -273,6 +273,8 @@ Status FrameResources::make(std::string_view name, const PlanInput& input)
 		return allocate(name, sizeof(View));
 	if (name == "counts")
 		return allocate(name, sizeof(FrameCounts));
+	if (name == "part_offsets")
+		return allocate(name, uint64_t(capacities_[LIST_PART_TRIANGLES]) * sizeof(uint32_t));
 	if (name == "indexed_draw")
 		return allocate(name, 20);
 	CHECK(name == "heads" || name == "surface" || name == "shading" || name == "height_texels", "nobody makes resource '{}'", name);

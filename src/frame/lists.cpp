@@ -19,7 +19,7 @@ constexpr ListDesc kLists[] = {
 	{ "full_clusters", LIST_FULL_CLUSTERS, 8, kMillion, CLUSTER_GROUP_SIZE },
 	{ "split_triangles", LIST_SPLIT_TRIANGLES, 24, kMillion / 4, 1 },
 	{ "part_triangles", LIST_PART_TRIANGLES, 24, kMillion, 1 },
-	{ "batches", LIST_BATCHES, 8, kMillion, 1 },
+	{ "batches", LIST_BATCHES, sizeof(Batch), 1, 1 },
 	{ "micro_vertices", LIST_MICRO_VERTICES, 16, kMillion, 128 * CLUSTER_GROUP_SIZE },
 	{ "expanded_triangles", LIST_EXPANDED_TRIANGLES, 16, kMillion, 128 * CLUSTER_GROUP_SIZE },
 };
@@ -38,6 +38,16 @@ uint64_t sceneBound(const ListDesc& list, const PlanInput& input)
 	default:
 		return 0;
 	}
+}
+
+// Batches that this many parts can need at most: batches never decide the rate. Parts are packed in windows; a batch that is not
+// the last of its window holds at least as many parts as of the largest patterns fit.
+uint32_t mostBatches(uint32_t parts, const PlanInput& input)
+{
+	if (!usesSoft(input))
+		return parts;
+	constexpr uint32_t kLeastParts = std::min(RASTER_BATCH_VERTICES / BATCH_MAX_VERTICES, RASTER_BATCH_TRIANGLES / BATCH_MAX_TRIANGLES);
+	return parts / kLeastParts + parts / BATCH_WINDOW + 2;
 }
 
 }  // namespace
@@ -89,8 +99,7 @@ Result<std::array<uint32_t, LIST_COUNT>> listCapacities(const PlanInput& input)
 			capacity = asked->second;
 		capacities[list.index] = static_cast<uint32_t>(std::max<uint64_t>(capacity, list.least_capacity));
 	}
-	// There is at most one batch per part triangle: batches can never decide the rate.
-	capacities[LIST_BATCHES] = std::max(capacities[LIST_BATCHES], capacities[LIST_PART_TRIANGLES]);
+	capacities[LIST_BATCHES] = std::max(capacities[LIST_BATCHES], mostBatches(capacities[LIST_PART_TRIANGLES], input));
 	return capacities;
 }
 

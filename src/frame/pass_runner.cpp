@@ -85,9 +85,9 @@ uint32_t workgroupThreads(const Device& device, const PassDesc& pass)
 {
 	if (pass.shaders.front().ends_with(".mesh"))
 		return device.limits.mesh_workgroup_threads;
-	if (pass.name == "raster_micro")
-		return device.is_cpu ? 32 : 128;
-	return device.is_cpu ? 32 : pass.name == "triangle_split" ? 32 : 64;
+	if (device.is_cpu)
+		return 32;
+	return pass.name == "raster_micro" || pass.name == "triangle_split" ? 128 : 64;
 }
 
 VkCullModeFlags cullMode(const SceneTraits& scene)

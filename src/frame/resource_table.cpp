@@ -111,6 +111,10 @@ constexpr ResourceDesc kResources[] = {
 	{ "full_clusters", "list", ofList<LIST_FULL_CLUSTERS> },
 	{ "split_triangles", "list", ofList<LIST_SPLIT_TRIANGLES> },
 	{ "part_triangles", "list", ofList<LIST_PART_TRIANGLES> },
+	{ "part_offsets", "list",
+	  [](const PlanInput& input) -> uint64_t {
+		  return ofList<LIST_PART_TRIANGLES>(input) / sizeof(DomainTriangle) * sizeof(uint32_t);
+	  } },
 	{ "batches", "list", ofList<LIST_BATCHES> },
 	{ "micro_vertices", "list", ofList<LIST_MICRO_VERTICES> },
 	{ "expanded_triangles", "list", ofList<LIST_EXPANDED_TRIANGLES> },

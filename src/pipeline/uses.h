@@ -56,10 +56,11 @@ constexpr std::array<Use, 19> surfaceUses(Access access)
 }
 
 // What expanding parts by the table reads.
-constexpr std::array<Use, 4> partUses(Access access)
+constexpr std::array<Use, 5> partUses(Access access)
 {
 	return { {
 		{ "part_triangles", access, &kTessellates },
+		{ "part_offsets", access, &kTessellates },
 		{ "patterns", access, &kTessellates },
 		{ "table_vertices", access, &kTessellates },
 		{ "table_triangles", access, &kTessellates },
@@ -88,6 +89,7 @@ inline RasterInputs rasterInputs(const PassContext& pass, ReadsParts parts = Rea
 	if (parts == ReadsParts::No)
 		return inputs;
 	inputs.part_triangles = pass.address("part_triangles");
+	inputs.part_offsets = pass.address("part_offsets");
 	inputs.table = tableView(pass);
 	return inputs;
 }

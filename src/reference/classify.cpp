@@ -101,11 +101,12 @@ private:
 	{
 		const PatternRange pattern = scene_.pattern(piece);
 		Corner corners[kMaxPatternVertices];
-		const Surface& surface = scene_.surface();
+		const TriangleCorners base_corners = triangleCorners(scene_.surface(), base_);
 		for (uint32_t v = 0; v < patternVertices(pattern); ++v)
 		{
 			const DomainPoint point = patternPoint(piece, v, pattern, scene_.table(), triangleEdgeFlags(base_.flags));
-			corners[v] = { point, placed(placement_, basePoint(surface, base_, domainWeights(point))) };
+			corners[v] = { point, placed(placement_, weightedVec3(base_corners.position0, base_corners.position1, base_corners.position2,
+																  domainWeights(point))) };
 		}
 		for (uint32_t t = 0; t < patternTriangles(pattern); ++t)
 		{

@@ -23,6 +23,9 @@ static constexpr Use kUses[] = {
 	{ "part_triangles", Access::ComputeWrite },
 };
 
+// SPLITS_PER_GROUP of the shader.
+constexpr uint32_t kSplitsPerGroup = 32;
+
 static uint32_t levels(const PlanInput& input)
 {
 	return input.view.split_levels;
@@ -46,7 +49,7 @@ static void record(PassContext& pass)
 	args.cull_frustum = pass.input().options.cull.frustum ? 1 : 0;
 	args.level = pass.repeat();
 	args.last_level = pass.repeat() + 1 == levels(pass.input()) ? 1 : 0;
-	pass.dispatchLoop(args, pass.capacity("split_triangles"));
+	pass.dispatchLoop(args, pass.capacity("split_triangles"), kSplitsPerGroup);
 }
 
 static constexpr const Condition* kNeeded[] = { &kSplits };
