@@ -8,7 +8,7 @@
 //
 // One workgroup takes one cluster at a time; lanes stride over its vertices and triangles, so any workgroup size works.
 // Appends are gathered per workgroup: one atomic per list. `wanted` keeps counting past capacity; nothing is written there,
-// and nothing is drawn from this attempt then: the frame is counted again at a coarser rate (C2).
+// and nothing of it is drawn: rate_search lists everything again at a coarser rate (C2).
 // Host: src/pipeline/tessellation/cluster_classify.cpp   Test: tests/gpu/tessellation_test.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -1,11 +1,11 @@
-// rate_fit: see whether every list of this attempt fits; if not, nothing of it is drawn.
+// rate_fit: see whether every list fits after all; if not, nothing is drawn.
 //
 //   in   heads, counts    what the stages before it wanted
 //   out  heads            peaks; the rows of all draws become 0 when something did not fit
 //   out  counts           overflow
 //   out  indexed_draw     arguments of the indexed draw, where micro-triangles are expanded
 //
-// One workgroup. A frame that does not fit is counted again at rate x 2^(j/16) with a larger j (DESIGN.md, C2): no
+// One workgroup. What rate_search cannot make fit is drawn again in rounds, or with larger packings (DESIGN.md, C2): no
 // triangle is ever dropped. Host: src/pipeline/tessellation/rate_fit.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require

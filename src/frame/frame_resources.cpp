@@ -146,6 +146,11 @@ Status FrameResources::makeHeads()
 		head.capacity = has(list.name) ? capacities_[list.index] : 0;
 		head.group_width = std::max(32u, (capacities_[list.index] + device_.limits.max_mesh_rows - 1) / device_.limits.max_mesh_rows);
 		head.group_depth = 1;
+		if (!has("heads"))
+			continue;
+		const ListHead before = this->head(list.index);
+		head.peak = before.peak;
+		head.peak_used = before.peak_used;
 	}
 	return upload("heads", asBytes(heads));
 }
@@ -271,6 +276,8 @@ Status FrameResources::make(std::string_view name, const PlanInput& input)
 		return allocateEmpty(name, uint64_t(input.options.width_px) * input.options.height_px * 8);
 	if (name == "view")
 		return allocate(name, sizeof(View));
+	if (name == "rate_steps")
+		return allocate(name, kMostRateSteps * sizeof(RateStep));
 	if (name == "counts")
 		return allocate(name, sizeof(FrameCounts));
 	if (name == "part_offsets")
@@ -307,7 +314,7 @@ Status FrameResources::prepare(const FramePlan& plan, const PlanInput& input)
 bool FrameResources::grow(const ListDesc& list, uint32_t wanted, const PlanInput& input)
 {
 	const std::string name(list.name);
-	if (!growsOnDemand(list) || !has(name) || input.options.capacities.count(name) || wanted > mostEntries(list))
+	if (!growsOnDemand(list) || !has(name) || (decidingLists(input) >> list.index & 1))
 		return false;
 	const uint64_t capacity = std::min<uint64_t>(uint64_t(wanted) * 5 / 4, mostEntries(list));
 	buffers_.erase(name);
@@ -319,24 +326,52 @@ bool FrameResources::grow(const ListDesc& list, uint32_t wanted, const PlanInput
 	}
 	else if (!allocate(name, listBytes(list, capacities_[list.index])))
 		return false;
-	return makeHeads().has_value() && made.has_value();
+	if (!made || capacity < wanted)
+		fixed_lists_ |= 1u << list.index;
+	return makeHeads().has_value();
 }
 
-Status FrameResources::writeView(const View& view, uint32_t round)
+uint32_t FrameResources::decidingLists(const PlanInput& input) const
+{
+	uint32_t lists = 0;
+	for (const ListDesc& list : listDescs())
+	{
+		const bool is_fixed = (fixed_lists_ >> list.index & 1) || input.options.capacities.count(std::string(list.name)) > 0;
+		const bool decides = growsOnDemand(list) ? is_fixed && has(list.name) : list.index != LIST_BATCHES;
+		lists |= decides ? 1u << list.index : 0;
+	}
+	return lists;
+}
+
+Status FrameResources::writeView(const View& view, uint32_t round, std::span<const RateStep> steps)
 {
 	round_ = round;
 	view_ = view;
 	vkCmdUpdateBuffer(commands_->buffer(), buffer("view").handle(), 0, sizeof(View), &view);
+	const auto steps_bytes = std::as_bytes(steps);
+	if (!steps.empty() && !std::ranges::equal(steps_bytes, std::as_bytes(std::span(steps_))))
+	{
+		steps_.assign(steps.begin(), steps.end());
+		vkCmdUpdateBuffer(commands_->buffer(), buffer("rate_steps").handle(), 0, steps_bytes.size(), steps.data());
+	}
 	VkMemoryBarrier2 barrier = { VK_STRUCTURE_TYPE_MEMORY_BARRIER_2 };
 	barrier.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
 	barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
 	barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-	barrier.dstAccessMask = VK_ACCESS_2_UNIFORM_READ_BIT;
+	barrier.dstAccessMask = VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT;
 	VkDependencyInfo info = { VK_STRUCTURE_TYPE_DEPENDENCY_INFO };
 	info.memoryBarrierCount = 1;
 	info.pMemoryBarriers = &barrier;
 	vkCmdPipelineBarrier2(commands_->buffer(), &info);
 	return {};
+}
+
+void FrameResources::clearVisibility()
+{
+	if (!has("visibility_buffer"))
+		return;
+	vkCmdFillBuffer(commands_->buffer(), buffer("visibility_buffer").handle(), 0, VK_WHOLE_SIZE, 0);
+	fullBarrier(commands_->buffer());
 }
 
 uint64_t FrameResources::address(std::string_view name) const
@@ -377,7 +412,7 @@ MemoryStats FrameResources::memory() const
 	MemoryStats memory;
 	for (const auto& [name, held] : buffers_)
 	{
-		if (findList(name) || name == "heads" || name == "counts")
+		if (findList(name) || name == "heads" || name == "counts" || name == "rate_steps")
 			memory.lists += held.bytes();
 		else if (name == "picture" || name == "visibility_buffer")
 			memory.images += held.bytes();

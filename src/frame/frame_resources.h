@@ -1,11 +1,13 @@
 // Every buffer and image that a plan keeps, by the name that passes use; scene arrays are uploaded when first kept.
 #pragma once
 #include "frame/lists.h"
+#include "frame/rate_controller.h"
 #include "frame/stats.h"
 #include "gpu/commands.h"
 #include "gpu/pipeline.h"
 #include "scene/camera.h"
 #include "tables/table.h"
+#include "tessellation/rate_search.h"
 
 #include <map>
 
@@ -15,6 +17,9 @@ namespace tessera
 // Names and sizes of all resources, for the planner.
 std::span<const ResourceDesc> resourceDescs();
 
+// Candidates of rate_search that fit its buffer.
+inline constexpr uint32_t kMostRateSteps = RateController::kMostCoarsening + 1;
+
 class FrameResources
 {
 public:
@@ -23,9 +28,13 @@ public:
 
 	// Makes and fills what the plan keeps and does not exist yet.
 	Status prepare(const FramePlan& plan, const PlanInput& input);
-	// Makes a list that grows on demand hold at least `wanted`. False when it may not or memory is short.
+	// Makes a list that grows on demand hold `wanted`. True when its capacity has changed, or cannot any more and decides the rate from now
+	// on (decidingLists): the frame can be drawn again. False when nothing has changed.
 	bool grow(const ListDesc& list, uint32_t wanted, const PlanInput& input);
-	Status writeView(const View& view, uint32_t round);
+	// Records the uploads of a round. `steps`: candidates of rate_search, empty where the plan has none.
+	Status writeView(const View& view, uint32_t round, std::span<const RateStep> steps = {});
+	// Records that nothing has been seen yet: after rounds that were not drawn to the end.
+	void clearVisibility();
 
 	uint64_t address(std::string_view name) const;
 	const Buffer& buffer(std::string_view name) const;
@@ -35,6 +44,9 @@ public:
 	uint32_t capacity(std::string_view list) const;
 	uint32_t round() const { return round_; }
 	const View& view() const { return view_; }
+	uint32_t rateStepCount() const { return static_cast<uint32_t>(steps_.size()); }
+	// Bit per list whose capacity limits the rate: all but batches, which follow from parts, and those that can grow.
+	uint32_t decidingLists(const PlanInput& input) const;
 	uint32_t tableSize() const { return table_.max_edge_segments; }
 	const BindlessSet& bindless() const { return *bindless_; }
 	BindlessSet& bindless() { return *bindless_; }
@@ -76,6 +88,8 @@ private:
 	std::array<uint32_t, LIST_COUNT> capacities_ = {};
 	uint32_t round_ = 0;
 	View view_ = {};
+	std::vector<RateStep> steps_;  // as uploaded
+	uint32_t fixed_lists_ = 0;     // bit per list that grows no more
 
 public:
 	~FrameResources();

@@ -28,6 +28,21 @@ FactorRule PassContext::factorRule() const
 	return tessera::factorRule(resources_.view(), resources_.tableSize(), std::min(input_.options.max_split, resources_.tableSize()));
 }
 
+const View& PassContext::view() const
+{
+	return resources_.view();
+}
+
+uint32_t PassContext::rateStepCount() const
+{
+	return resources_.rateStepCount();
+}
+
+uint32_t PassContext::decidingLists() const
+{
+	return resources_.decidingLists(input_);
+}
+
 uint32_t PassContext::capacity(std::string_view list) const
 {
 	return resources_.capacity(list);

@@ -28,6 +28,9 @@ public:
 	uint32_t repeat() const { return step_.repeat; }
 	uint32_t round() const;
 	FactorRule factorRule() const;
+	const View& view() const;  // as planned: the granted rate may be coarser
+	uint32_t rateStepCount() const;
+	uint32_t decidingLists() const;  // bit per list whose capacity limits the rate
 
 	// Arguments go into the push constants of every stage.
 	template <typename Args>

@@ -1,4 +1,5 @@
-// Decides the one coarsening j of a frame: the granted rate is rate x 2^(j/16) (DESIGN.md, contract C2). Pure.
+// What the host remembers of the coarsening j of a frame: the granted rate is rate x 2^(j/16) (DESIGN.md, contract C2). The device finds j
+// (rate_search); here is only where the next frame starts, and how many rounds it takes when no rate helps. Pure.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -8,37 +9,33 @@ namespace tessera
 
 struct Attempt
 {
-	uint32_t coarsening = 0;
-	bool every_factor_one = false;  // beyond every j: nothing is tessellated
-	uint32_t rounds = 1;            // the frame is drawn in this many parts, one after the other
+	uint32_t coarsening = 0;  // j that the frame is planned for: the finest that it can get
+	uint32_t rounds = 1;      // the frame is drawn in this many parts, one after the other
 };
 
 // What an attempt found.
 struct AttemptOutcome
 {
-	bool fits = false;
-	double worst_ratio = 1;          // largest wanted / capacity over the lists that the rate decides
-	bool clusters_overflow = false;  // a list that no rate can relieve (clusters) wanted more than it holds
+	bool fits = true;           // everything was drawn
+	bool rate_can_help = true;  // if not: a coarser rate might, clusters being no problem
+	uint32_t coarsening = 0;    // j of what was drawn, or was to be; the largest of the rounds
 };
 
-// Searches the smallest j that fits: first upwards by what the overflow suggests, then between the last that failed and the
-// first that fit. Remembers j over frames; a still camera that fits keeps it, one that changed starts anew below it.
 class RateController
 {
 public:
 	static constexpr uint32_t kMostCoarsening = 16 * 40;  // 2^40 times the rate: after that every factor is 1
 
-	// Starts a frame. `same_view`: camera, rate and capacities are those of the frame before.
+	// Starts a frame. `same_view`: camera, rate and capacities are those of the frame before. Then it starts with what that one ended
+	// with, otherwise at the asked rate: j depends on the view alone, not on the way to it.
 	void beginFrame(bool same_view);
 	Attempt next() const { return attempt_; }
-	// Takes the outcome of next(); true when this attempt is the frame.
+	// Takes the outcome of next(); true when this attempt is the frame. Every round of a frame has the same rate, so a round that needs a
+	// coarser one makes the frame start again there.
 	bool accept(const AttemptOutcome& outcome);
 
 private:
 	Attempt attempt_;
-	uint32_t step_ = 0;               // last move upwards
-	std::optional<uint32_t> failed_;  // largest j known not to fit
-	std::optional<uint32_t> fitted_;  // smallest j known to fit
 };
 
 }  // namespace tessera

@@ -3,6 +3,7 @@
 #include "base/check.h"
 #include "frame/pass_runner.h"
 #include "frame/rate_controller.h"
+#include "frame/rate_steps.h"
 #include "plan/conditions.h"
 #include "scene/factor_rule.h"
 
@@ -89,6 +90,7 @@ public:
 	{
 		controller_.beginFrame(camera == last_camera_);
 		last_camera_ = camera;
+		growAhead();
 		for (uint32_t attempts = 1;; ++attempts)
 		{
 			const Attempt attempt = controller_.next();
@@ -129,60 +131,83 @@ public:
 	const View& view() const override { return view_; }
 
 private:
-	double grantedRate(const Attempt& attempt) const { return double(input_.options.rate) * std::exp2(attempt.coarsening / 16.0); }
-
 	ViewRequest requestFor(const Attempt& attempt) const
 	{
 		ViewRequest request = { input_.options.width_px, input_.options.height_px };
-		request.rate_px = grantedRate(attempt);
-		request.every_factor_one = attempt.every_factor_one;
+		request.rate_px = coarsenedRate(double(input_.options.rate), attempt.coarsening);
+		request.every_factor_one = attempt.coarsening == RateController::kMostCoarsening;
 		request.displacement_scale = input_.options.displacement_scale;
 		return request;
 	}
 
 	Result<FramePlan> planFor(const Camera& camera, const Attempt& attempt)
 	{
-		TRY_ASSIGN(view_, makeView(camera, scene_, requestFor(attempt)));
-		const FactorRule rule = factorRule(view_, table_.max_edge_segments, std::min(input_.options.max_split, table_.max_edge_segments));
-		const FactorBound bound = boundFactors(camera, scene_, requestFor(attempt), rule.table_size, rule.max_split);
+		const ViewRequest request = requestFor(attempt);
+		TRY_ASSIGN(view_, makeView(camera, scene_, request));
+		const uint32_t table_size = table_.max_edge_segments, max_split = std::min(input_.options.max_split, table_size);
+		const FactorRule rule = factorRule(view_, table_size, max_split);
+		const FactorBound bound = boundFactors(camera, scene_, request, rule.table_size, rule.max_split);
 		input_.view.factors_above_one = bound.above_one;
 		input_.view.split_levels = bound.split_levels > 0 || levels_needed_ > 0 ? std::max(bound.split_levels, levels_needed_) : 0;
 		input_.view.rounds = attempt.rounds;
-		input_.view.rate_px = grantedRate(attempt);
+		input_.view.rate_px = request.rate_px;
+		steps_.clear();
+		if (kTessellates.holds(input_))
+			steps_ = rateSteps(camera, view_, request, attempt.coarsening, bound.largest_factor, table_size, max_split);
 		return planFrame(passes_, resourceDescs(), kWantedOutputs, input_);
 	}
 
-	// One attempt: plans, draws all rounds, and leaves in outcome_ whether everything fitted.
+	// One attempt: plans, draws all rounds, and leaves in outcome_ whether everything fitted at one rate.
 	Result<FrameResult> drawAttempt(const Camera& camera, const Attempt& attempt)
 	{
 		grew_ = false;
-		outcome_ = { true, 1, false };
+		outcome_ = { true, true, attempt.coarsening };
 		TRY_ASSIGN(plan_, planFor(camera, attempt));
 		TRY(resources_->prepare(plan_, input_));
 		TRY(runner_->preparePipelines(plan_, input_));
 		FrameResult result;
-		result.rate_wanted = double(input_.options.rate);
-		result.rate_granted = grantedRate(attempt);
-		result.coarsening = attempt.coarsening;
-		result.every_factor_one = attempt.every_factor_one;
 		result.rounds = attempt.rounds;
-		for (uint32_t round = 0; round < attempt.rounds && outcome_.fits && !grew_; ++round)
-			TRY(drawRound(round, result));
+		const auto goes_on = [&] {
+			return outcome_.fits && !grew_ && (attempt.rounds == 1 || outcome_.coarsening == attempt.coarsening);
+		};
+		for (uint32_t round = 0; round < attempt.rounds && goes_on(); ++round)
+			TRY(drawRound(attempt, round, result));
+		grant(attempt, result);
 		fillLists(result);
 		return result;
 	}
 
-	Status drawRound(uint32_t round, FrameResult& result)
+	// What the device made of the rate, as if it had been asked for.
+	void grant(const Attempt& attempt, FrameResult& result)
+	{
+		result.rate_wanted = double(input_.options.rate);
+		result.rate_granted = coarsenedRate(result.rate_wanted, outcome_.coarsening);
+		result.coarsening = outcome_.coarsening;
+		const uint32_t step = outcome_.coarsening - attempt.coarsening;
+		if (step == 0)
+		{
+			result.every_factor_one = outcome_.coarsening > 0 && !kTessellates.holds(input_);
+			return;
+		}
+		view_.rate_over_focal_squared = steps_[step].rate_over_focal_squared;
+		view_.sample_over_focal_squared = steps_[step].sample_over_focal_squared;
+		result.every_factor_one = step + 1 == steps_.size();
+	}
+
+	Status drawRound(const Attempt& attempt, uint32_t round, FrameResult& result)
 	{
 		CommandRecorder& commands = resources_->commands();
 		TRY(commands.begin());
-		TRY(resources_->writeView(view_, round));
+		TRY(resources_->writeView(view_, round, steps_));
+		if (round == 0 && rounds_left_over_)
+			resources_->clearVisibility();
+		rounds_left_over_ = round + 1 < attempt.rounds;
 		TRY(runner_->record(plan_, input_));
 		resources_->recordCountsReadback(commands.buffer());
 		TRY(commands.submitAndWait());
 		TRY(runner_->readTimes());
 		addTimes(result);
-		judge();
+		judge(attempt);
 		addCounts(result);
 		return {};
 	}
@@ -200,35 +225,50 @@ private:
 		}
 	}
 
-	// What the device said: did every list hold what was wanted?
-	void judge()
+	// What the device said: which rate, and did every list hold what was wanted at it?
+	void judge(const Attempt& attempt)
 	{
 		const FrameCounts counts = resources_->counts();
+		outcome_.coarsening = std::max(outcome_.coarsening, attempt.coarsening + counts.rate_step);
+		if (kTessellates.holds(input_))
+			judgeLevels(counts);
 		if (counts.overflow == 0)
 			return;
-		const uint32_t levels = kSplits.holds(input_) ? input_.view.split_levels : 0;
-		if (kTessellates.holds(input_) && counts.split_count[levels] > 0 && levels + 2 < MAX_SPLIT_LEVELS)
-		{
-			levels_needed_ = std::max(levels + 2, 2u);
-			grew_ = true;
-			return;
-		}
-		for (const ListDesc& list : listDescs())
-		{
-			const ListHead head = resources_->head(list.index);
-			grew_ |= head.wanted > head.capacity && resources_->grow(list, head.wanted, input_);
-		}
-		outcome_.fits = false;
-		outcome_.worst_ratio = counts.split_count[levels] > 0 ? 2 : 1;
+		bool clusters = false;
 		for (const ListDesc& list : listDescs())
 		{
 			const ListHead head = resources_->head(list.index);
 			if (head.wanted <= head.capacity)
 				continue;
-			const bool clusters = list.index == LIST_CLUSTER_GROUPS || list.index == LIST_VISIBLE_CLUSTERS || list.index == LIST_FULL_CLUSTERS;
-			outcome_.clusters_overflow |= clusters;
-			if (!clusters)
-				outcome_.worst_ratio = std::max(outcome_.worst_ratio, double(head.wanted) / std::max(head.capacity, 1u));
+			grew_ |= resources_->grow(list, head.wanted, input_);
+			clusters |= list.index == LIST_CLUSTER_GROUPS || list.index == LIST_VISIBLE_CLUSTERS || list.index == LIST_FULL_CLUSTERS;
+		}
+		outcome_.fits = false;
+		// Without a rate that fits the lists are left overfull as they were; listed again they fit as they were counted.
+		outcome_.rate_can_help = counts.listed_again != 0 && !clusters;
+	}
+
+	// More split levels than were planned for: rate_search has listed everything without them, and the next frame plans more. Where no
+	// split was expected at all, there was no list for them: this frame is drawn again.
+	void judgeLevels(const FrameCounts& counts)
+	{
+		const uint32_t levels = kSplits.holds(input_) ? input_.view.split_levels : 0;
+		if ((counts.levels_missing == 0 && counts.split_count[levels] == 0) || levels + 2 >= MAX_SPLIT_LEVELS)
+			return;
+		levels_needed_ = levels + 2;
+		grew_ |= levels == 0;
+	}
+
+	// Packings that the last frame nearly filled grow before they are too small, so that a moving camera seldom draws a frame twice.
+	void growAhead()
+	{
+		for (const ListDesc& list : listDescs())
+		{
+			if (!growsOnDemand(list) || !resources_->has(list.name))
+				continue;
+			const ListHead head = resources_->head(list.index);
+			if (head.wanted <= head.capacity && uint64_t(head.wanted) * 10 > uint64_t(resources_->capacity(list.name)) * 9)
+				resources_->grow(list, head.wanted, input_);
 		}
 	}
 
@@ -267,8 +307,10 @@ private:
 	RateController controller_;
 	AttemptOutcome outcome_;
 	Camera last_camera_ = {};
-	uint32_t levels_needed_ = 0;  // more split levels than the host foresaw were needed
-	bool grew_ = false;           // the frame must be drawn again with more levels or larger packings, at the same rate
+	std::vector<RateStep> steps_;    // candidates of the attempt
+	bool rounds_left_over_ = false;  // the last attempt ended between rounds: what it saw is still in the visibility buffer
+	uint32_t levels_needed_ = 0;     // more split levels than the host foresaw were needed
+	bool grew_ = false;              // the frame must be drawn again with more levels or larger packings, at the same rate
 };
 
 }  // namespace

@@ -105,6 +105,7 @@ constexpr ResourceDesc kResources[] = {
 	{ "surface", "buffer", fixedBytes<sizeof(Surface)> },
 	{ "shading", "buffer", fixedBytes<sizeof(ShadingData)> },
 	{ "heads", "buffer", fixedBytes<LIST_COUNT * sizeof(ListHead)> },
+	{ "rate_steps", "buffer", fixedBytes<kMostRateSteps * sizeof(RateStep)> },
 	{ "counts", "buffer", fixedBytes<sizeof(FrameCounts)> },
 	{ "cluster_groups", "list", ofList<LIST_CLUSTER_GROUPS> },
 	{ "visible_clusters", "list", ofList<LIST_VISIBLE_CLUSTERS> },

@@ -12,6 +12,7 @@ extern const PassDesc kInstanceClassify;
 extern const PassDesc kClusterCull;
 extern const PassDesc kClusterClassify;
 extern const PassDesc kTriangleSplit;
+extern const PassDesc kRateSearch;
 extern const PassDesc kBatchParts;
 extern const PassDesc kRateFit;
 extern const PassDesc kEvaluateVertices;

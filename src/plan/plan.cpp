@@ -225,7 +225,11 @@ bool FramePlan::everyReadHasAnEarlierWriteAndABarrier(const PlanInput& input) co
 							ordered |= steps[barrier].wait_for.has(write.access) && steps[barrier].then.has(read.access);
 					}
 			}
-			if (!found || !ordered)
+			// What the host fills is there before the first step.
+			const bool by_passes = std::any_of(resources.begin(), resources.end(), [&](const PlannedResource& made) {
+				return made.name == read.resource && (made.kind == "list" || made.kind == "image");
+			});
+			if (found ? !ordered : by_passes)
 				return false;
 		}
 	return true;

@@ -146,6 +146,15 @@ float rateOverFocalSquared(const Camera& camera, uint32_t height_px, double rate
 	return static_cast<float>(s * s);
 }
 
+void setRate(View& view, const Camera& camera, const ViewRequest& request)
+{
+	view.rate_over_focal_squared = rateOverFocalSquared(camera, request.height_px, request.every_factor_one ? 0 : request.rate_px);
+	// Segments longer than two thirds of their distance: factors above 1 could not be split to an end (factor_rule.h).
+	if (!camera.orthographic && view.rate_over_focal_squared > 4.0f / 9)
+		view.rate_over_focal_squared = std::numeric_limits<float>::infinity();
+	view.sample_over_focal_squared = request.rate_px > 0 ? rateOverFocalSquared(camera, request.height_px, request.rate_px) : 0;
+}
+
 Result<View> makeView(const Camera& camera, const BuiltScene& scene, const ViewRequest& request)
 {
 	TRY(checkCamera(camera, request));
@@ -163,11 +172,7 @@ Result<View> makeView(const Camera& camera, const BuiltScene& scene, const ViewR
 	view.unit = static_cast<float>(unit);
 	view.inverse_unit_squared = static_cast<float>(1 / (unit * unit));
 	setProjection(view, camera, scene, request, unit);
-	view.rate_over_focal_squared = rateOverFocalSquared(camera, request.height_px, request.every_factor_one ? 0 : request.rate_px);
-	// Segments longer than two thirds of their distance: factors above 1 could not be split to an end (factor_rule.h).
-	if (!camera.orthographic && view.rate_over_focal_squared > 4.0f / 9)
-		view.rate_over_focal_squared = std::numeric_limits<float>::infinity();
-	view.sample_over_focal_squared = request.rate_px > 0 ? rateOverFocalSquared(camera, request.height_px, request.rate_px) : 0;
+	setRate(view, camera, request);
 	view.displacement_scale = request.displacement_scale;
 	view.width_px = request.width_px;
 	view.height_px = request.height_px;

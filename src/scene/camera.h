@@ -41,6 +41,9 @@ double nearDistance(const Camera& camera, const BuiltScene& scene);
 // Errors: BadInput when eye, target and up do not span a view, or a value is not finite or out of range.
 Result<View> makeView(const Camera& camera, const BuiltScene& scene, const ViewRequest& request);
 
+// Sets what of the view depends on the rate: s^2 for factors and for mip levels. `view` is otherwise that of the camera and the request.
+void setRate(View& view, const Camera& camera, const ViewRequest& request);
+
 // s^2 = (rate / focal_px)^2 of the metric `edge` in float; +infinity for rate 0.
 float rateOverFocalSquared(const Camera& camera, uint32_t height_px, double rate_px);
 

@@ -1,13 +1,15 @@
-// The search for the coarsening j of a frame, over made-up demands (contract C2).
+// Where a frame starts and when it is done (contract C2), and the candidates that the device chooses from.
 #include "frame/rate_controller.h"
+
+#include "frame/rate_steps.h"
+#include "scene/build.h"
+#include "scene/builtin.h"
+#include "scene/factor_rule.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <random>
-#include <set>
 
 namespace tessera::test
 {
@@ -15,193 +17,182 @@ namespace tessera::test
 namespace
 {
 
-// Wanted over capacity at coarsening j; more than 1 does not fit.
-using Demand = std::function<double(uint32_t j)>;
+constexpr uint32_t kMost = RateController::kMostCoarsening;
 
-struct Search
+// A device whose lists hold what a round wants from this j on. kMost + 1: at no rate.
+struct FakeDevice
 {
-	Attempt accepted;
-	uint32_t attempts = 0;
-	std::set<uint32_t> fitted, refused;
+	std::vector<uint32_t> smallest;  // per round, as many as there are rounds at most
+
+	AttemptOutcome draw(const Attempt& attempt) const
+	{
+		AttemptOutcome outcome = { true, true, attempt.coarsening };
+		for (uint32_t round = 0; round < attempt.rounds && outcome.fits && outcome.coarsening == attempt.coarsening; ++round)
+		{
+			const uint32_t j = std::max(attempt.coarsening, smallest.at(round % smallest.size()));
+			outcome.fits = j <= kMost;
+			outcome.rate_can_help = outcome.fits;
+			outcome.coarsening = std::min(j, kMost);
+		}
+		return outcome;
+	}
 };
 
-Search run(RateController& controller, const Demand& demand, double demand_at_one = 0)
+uint32_t attemptsOf(RateController& controller, const FakeDevice& device)
 {
-	Search search;
-	while (search.attempts < 2000)
-	{
-		const Attempt attempt = controller.next();
-		++search.attempts;
-		const double ratio = attempt.every_factor_one ? demand_at_one : demand(attempt.coarsening);
-		AttemptOutcome outcome;
-		outcome.fits = ratio <= 1;
-		outcome.worst_ratio = std::max(ratio, 1.0);
-		(outcome.fits ? search.fitted : search.refused).insert(attempt.coarsening);
-		if (controller.accept(outcome))
-		{
-			search.accepted = attempt;
-			return search;
-		}
-	}
-	ADD_FAILURE() << "the search does not end";
-	return search;
-}
-
-Search runNew(const Demand& demand)
-{
-	RateController controller;
-	controller.beginFrame(false);
-	return run(controller, demand);
-}
-
-// Falls with the square of the rate from `start`, but never below `floor` before `floor_end`.
-Demand plateau(double start, double floor, uint32_t floor_end)
-{
-	return [=](uint32_t j) {
-		return j < floor_end ? std::max(floor, start * std::exp2(-double(j) / 8)) : 0.5;
-	};
-}
-
-Demand randomMonotone(std::mt19937& random)
-{
-	const double start = std::exp2(std::uniform_real_distribution(-2.0, 20.0)(random));
-	std::vector<double> steps(RateController::kMostCoarsening + 1);
-	std::exponential_distribution step(1.0 / std::uniform_real_distribution(0.02, 0.3)(random));
-	double ratio = start;
-	for (double& value : steps)
-	{
-		value = ratio;
-		ratio *= std::exp2(-step(random));
-	}
-	return [steps](uint32_t j) {
-		return steps.at(j);
-	};
+	for (uint32_t attempts = 1;; ++attempts)
+		if (controller.accept(device.draw(controller.next())))
+			return attempts;
 }
 
 }  // namespace
 
-TEST(rateController, whatFitsAtOnceIsTakenAtOnce)
+TEST(rateController, whatTheDeviceGrantsIsTheFrameAtOnce)
 {
-	const Search search = runNew([](uint32_t) { return 0.9; });
-	EXPECT_EQ(search.attempts, 1u);
-	EXPECT_EQ(search.accepted.coarsening, 0u);
-	EXPECT_EQ(search.accepted.rounds, 1u);
-	EXPECT_FALSE(search.accepted.every_factor_one);
-}
-
-TEST(rateController, aDemandThatFallsWithTheSquareIsMetInFewAttempts)
-{
-	for (double start = 1.01; start < 1e6; start *= 1.7)
+	for (const uint32_t j : { 0u, 1u, 30u, kMost })
 	{
-		const Demand demand = [=](uint32_t j) {
-			return start * std::exp2(-double(j) / 8);
-		};
-		const Search search = runNew(demand);
-		EXPECT_LE(search.attempts, 12u) << start;
-		EXPECT_LE(demand(search.accepted.coarsening), 1);
-		EXPECT_GT(demand(search.accepted.coarsening - 1), 1);
+		RateController controller;
+		controller.beginFrame(false);
+		EXPECT_EQ(attemptsOf(controller, { { j } }), 1u);
+		EXPECT_EQ(controller.next().coarsening, j);
+		EXPECT_EQ(controller.next().rounds, 1u);
 	}
 }
 
-TEST(rateController, forAMonotoneDemandTheSmallestFittingJIsFound)
-{
-	std::mt19937 random(7);
-	for (int i = 0; i < 500; ++i)
-	{
-		const Demand demand = randomMonotone(random);
-		const Search search = runNew(demand);
-		if (search.accepted.every_factor_one)
-			continue;
-		ASSERT_LE(demand(search.accepted.coarsening), 1);
-		if (search.accepted.coarsening > 0)
-		{
-			ASSERT_GT(demand(search.accepted.coarsening - 1), 1);
-		}
-		ASSERT_LE(search.attempts, 24u);
-	}
-}
-
-TEST(rateController, forAnyDemandTheAcceptedJFitsAndIsTheSmallestFoundToFit)
-{
-	std::mt19937 random(11);
-	std::uniform_real_distribution noise(0.7, 1.4);
-	for (int i = 0; i < 500; ++i)
-	{
-		const Demand falling = randomMonotone(random);
-		std::vector<double> factors(RateController::kMostCoarsening + 1);
-		std::generate(factors.begin(), factors.end(), [&] { return noise(random); });
-		const Search search = runNew([&](uint32_t j) { return falling(j) * factors.at(j); });
-		if (search.accepted.every_factor_one)
-			continue;
-		const uint32_t j = search.accepted.coarsening;
-		ASSERT_TRUE(search.fitted.count(j));
-		ASSERT_EQ(*search.fitted.begin(), j);
-		ASSERT_TRUE(j == 0 || search.refused.count(j - 1));
-		ASSERT_LE(search.attempts, 24u);
-	}
-}
-
-TEST(rateController, aDemandThatHardlyFallsDoesNotTakeForever)
-{
-	for (const uint32_t end : { 20u, 60u, 120u, 300u, 639u })
-	{
-		const Search search = runNew(plateau(1.02, 1.01, end));
-		EXPECT_EQ(search.accepted.coarsening, end);
-		EXPECT_LE(search.attempts, 24u) << end;
-	}
-}
-
-TEST(rateController, whatNoRateRelievesEndsWithEveryFactorOne)
+TEST(rateController, aStillCameraStartsWithItsJAndAMovedOneAnew)
 {
 	RateController controller;
 	controller.beginFrame(false);
-	const Search search = run(
-		controller, [](uint32_t) { return 1000.0; }, 0.5);
-	EXPECT_TRUE(search.accepted.every_factor_one);
-	EXPECT_TRUE(search.refused.count(RateController::kMostCoarsening - 1)) << "every j comes before that";
-	EXPECT_EQ(search.accepted.rounds, 1u);
-	EXPECT_LE(search.attempts, 24u);
-}
-
-TEST(rateController, aStillCameraKeepsItsJAndDrawsOnce)
-{
-	RateController controller;
-	controller.beginFrame(false);
-	const Demand demand = [](uint32_t j) {
-		return 50 * std::exp2(-double(j) / 8);
-	};
-	const Search first = run(controller, demand);
+	attemptsOf(controller, { { 45 } });
 	for (int frame = 0; frame < 3; ++frame)
 	{
 		controller.beginFrame(true);
-		const Search again = run(controller, demand);
-		EXPECT_EQ(again.attempts, 1u);
-		EXPECT_EQ(again.accepted.coarsening, first.accepted.coarsening);
+		EXPECT_EQ(controller.next().coarsening, 45u);
+		EXPECT_EQ(attemptsOf(controller, { { 45 } }), 1u);
 	}
+	controller.beginFrame(false);
+	EXPECT_EQ(controller.next().coarsening, 0u);
 }
 
-TEST(rateController, aCameraThatMovesStartsAnew)
+TEST(rateController, whereNoRateHelpsThereAreMoreRoundsAtTheAskedRate)
 {
 	RateController controller;
 	controller.beginFrame(false);
-	run(controller, [](uint32_t j) { return 50 * std::exp2(-double(j) / 8); });
-	controller.beginFrame(false);
-	EXPECT_EQ(run(controller, [](uint32_t) { return 0.5; }).accepted.coarsening, 0u);
-}
-
-TEST(rateController, clustersThatOverflowAreDrawnInMoreRounds)
-{
-	RateController controller;
-	controller.beginFrame(false);
-	uint32_t rounds = 1;
-	for (; rounds < 8; rounds *= 2)
+	for (uint32_t rounds = 1; rounds < 8; rounds *= 2)
 	{
 		EXPECT_EQ(controller.next().rounds, rounds);
-		EXPECT_FALSE(controller.accept({ false, 1, true }));
+		EXPECT_EQ(controller.next().coarsening, 0u);
+		EXPECT_FALSE(controller.accept({ false, false, 17 }));
 	}
 	EXPECT_EQ(controller.next().rounds, 8u);
-	EXPECT_EQ(controller.next().coarsening, 0u) << "no rate relieves a list of clusters";
-	EXPECT_TRUE(controller.accept({ true, 1, false }));
+	EXPECT_TRUE(controller.accept({ true, true, 0 }));
+	controller.beginFrame(false);
+	EXPECT_EQ(controller.next().rounds, 1u);
+}
+
+TEST(rateController, everyRoundOfAFrameHasTheSameRate)
+{
+	RateController controller;
+	controller.beginFrame(false);
+	EXPECT_FALSE(controller.accept({ false, false, 0 }));
+	EXPECT_FALSE(controller.accept({ false, false, 0 }));
+	const FakeDevice device = { { 3, 0, 12, 5 } };
+	EXPECT_EQ(attemptsOf(controller, device), 3u) << "at 0, at 3, at 12";
+	EXPECT_EQ(controller.next().coarsening, 12u);
+	EXPECT_EQ(controller.next().rounds, 4u);
+}
+
+TEST(rateController, listsThatAreOverfullAllTheSameMakeTheNextRateTheStart)
+{
+	RateController controller;
+	controller.beginFrame(false);
+	EXPECT_FALSE(controller.accept({ false, true, 20 }));
+	EXPECT_EQ(controller.next().coarsening, 21u);
+	EXPECT_EQ(controller.next().rounds, 1u);
+	EXPECT_FALSE(controller.accept({ false, true, kMost })) << "nothing is coarser";
+	EXPECT_EQ(controller.next().rounds, 2u);
+}
+
+// --- candidates ------------------------------------------------------------------------------------------------------------------
+
+namespace
+{
+
+struct Steps
+{
+	ViewRequest request;
+	View view;
+	FactorBound bound;
+	std::vector<RateStep> steps;
+};
+
+Steps stepsOf(const BuiltScene& scene, const Camera& camera, double rate, uint32_t first)
+{
+	Steps made;
+	made.request.rate_px = coarsenedRate(rate, first);
+	made.view = *makeView(camera, scene, made.request);
+	made.bound = boundFactors(camera, scene, made.request, 11, 8);
+	made.steps = rateSteps(camera, made.view, made.request, first, made.bound.largest_factor, 11, 8);
+	return made;
+}
+
+std::vector<Camera> cameras(const BuiltScene& scene)
+{
+	Camera framed = framingCamera(scene), close = framed, flat = framed;
+	close.eye = close.target + (close.eye - close.target) * 0.4;
+	flat.orthographic = true;
+	flat.height_world = boundingRadius(scene);
+	return { framed, close, flat };
+}
+
+}  // namespace
+
+TEST(rateSteps, areTheViewsOfFramesAskedForAtThoseRates)
+{
+	const BuiltScene scene = *buildScene(*makeBuiltinScene("terrain"));
+	for (const Camera& camera : cameras(scene))
+		for (const uint32_t first : { 0u, 9u })
+		{
+			const Steps made = stepsOf(scene, camera, 4, first);
+			for (size_t k = 0; k + 1 < made.steps.size(); ++k)
+			{
+				ViewRequest asked = made.request;
+				asked.rate_px = coarsenedRate(4, first + uint32_t(k));
+				const View view = *makeView(camera, scene, asked);
+				const FactorRule rule = factorRule(view, 11, 8);
+				ASSERT_EQ(made.steps[k].rate_over_focal_squared, view.rate_over_focal_squared) << k;
+				ASSERT_EQ(made.steps[k].sample_over_focal_squared, view.sample_over_focal_squared) << k;
+				ASSERT_EQ(made.steps[k].rule.table_size, rule.table_size) << k;
+				ASSERT_EQ(made.steps[k].rule.max_split, rule.max_split) << k;
+			}
+		}
+}
+
+TEST(rateSteps, endWhereEveryFactorIsOneAndNotBefore)
+{
+	const BuiltScene scene = *buildScene(*makeBuiltinScene("terrain"));
+	for (const Camera& camera : cameras(scene))
+		for (const double rate : { 0.01, 4.0, 300.0 })
+		{
+			const Steps made = stepsOf(scene, camera, rate, 0);
+			ASSERT_GE(made.steps.size(), 2u);
+			ASSERT_LE(made.steps.size(), kMost + 1);
+			EXPECT_TRUE(std::isinf(made.steps.back().rate_over_focal_squared));
+			for (size_t k = 1; k < made.steps.size(); ++k)
+				EXPECT_GE(made.steps[k].rate_over_focal_squared, made.steps[k - 1].rate_over_focal_squared) << "a full cluster stays full";
+			for (size_t k = 1; k + 1 < made.steps.size(); ++k)
+				EXPECT_FALSE(std::isinf(made.steps[k].rate_over_focal_squared)) << k;
+		}
+}
+
+TEST(rateSteps, neverExceedTheirBuffer)
+{
+	const BuiltScene scene = *buildScene(*makeBuiltinScene("quad"));
+	Camera flat = framingCamera(scene);
+	flat.orthographic = true;
+	flat.height_world = 1e-12;
+	EXPECT_EQ(stepsOf(scene, flat, 1e-3, 0).steps.size(), kMost + 1);
+	EXPECT_EQ(stepsOf(scene, flat, 1e-3, kMost - 1).steps.size(), 2u);
 }
 
 }  // namespace tessera::test

@@ -5,6 +5,7 @@
 #include "shading/shade.h"
 #include "spirv_module.h"
 #include "tessellation/rate_fit.h"
+#include "tessellation/rate_search.h"
 #include "tessellation/triangle_split.h"
 
 #include "base/file.h"
@@ -122,7 +123,10 @@ std::vector<HostLayout> hostLayouts()
 		LAYOUT(11, Surface, positions, directions, uvs, densities, triangles, first_seam_edges, seam_edges, seam_corner_indices, seam_corners,
 			   material_height_maps, height_maps),
 		LAYOUT(8, ListHead, group_width, group_rows, group_depth, wanted, capacity, peak, peak_used, unused),
-		LAYOUT(7, FrameCounts, overflow, covered_pixels, micro_low, micro_high, full_cluster_triangles, expanded_triangles, split_count),
+		LAYOUT(11, FrameCounts, overflow, covered_pixels, micro_low, micro_high, full_cluster_triangles, expanded_triangles, rate_step, listed_again,
+			   levels_missing, search_finished, split_count),
+		LAYOUT(11, RateStep, rate_over_focal_squared, sample_over_focal_squared, rule, split_triangles, part_triangles, part_vertices,
+			   part_micro_triangles, full_clusters, full_vertices, full_micro_triangles, abandoned),
 		LAYOUT(3, ClusterGroup, instance, first_cluster, cluster_count),
 		LAYOUT(2, FullCluster, visible_cluster, first_vertex),
 		LAYOUT(3, Batch, parts, counts, first_vertex),

@@ -1,0 +1,65 @@
+#include "tessellation/rate_search.h"
+
+#include "pipeline/passes.h"
+#include "pipeline/uses.h"
+
+namespace tessera
+{
+
+// It needs somebody to have listed before: reads what it replaces.
+static constexpr Use kUses[] = {
+	{ "full_clusters", Access::ComputeRead },
+	{ "visible_clusters", Access::ComputeRead },
+	{ "surface", Access::ComputeRead },
+	{ "instances", Access::ComputeRead },
+	{ "clusters", Access::ComputeRead },
+	{ "cluster_bounds", Access::ComputeRead, &kFrustumCulls },
+	{ "positions", Access::ComputeRead },
+	{ "triangles", Access::ComputeRead },
+	{ "patterns", Access::ComputeRead },
+	{ "table_vertices", Access::ComputeRead },
+	{ "table_triangles", Access::ComputeRead },
+	{ "rate_steps", Access::ComputeWrite },
+	{ "view", Access::ComputeWrite },
+	{ "heads", Access::ComputeWrite },
+	{ "counts", Access::ComputeWrite },
+	{ "full_clusters", Access::ComputeWrite },
+	{ "split_triangles", Access::ComputeWrite, &kSplits },
+	{ "part_triangles", Access::ComputeWrite },
+};
+
+// Count and choose, then list.
+static uint32_t dispatches(const PlanInput&)
+{
+	return 2;
+}
+
+static void record(PassContext& pass)
+{
+	RateSearchArgs args = {};
+	args.instances = pass.address("instances");
+	args.clusters = pass.address("clusters");
+	args.cluster_bounds = pass.address("cluster_bounds");
+	args.heads = pass.address("heads");
+	args.counts = pass.address("counts");
+	args.visible_clusters = pass.address("visible_clusters");
+	args.full_clusters = pass.address("full_clusters");
+	args.split_triangles = pass.address("split_triangles");
+	args.part_triangles = pass.address("part_triangles");
+	args.table = tableView(pass);
+	args.steps = pass.address("rate_steps");
+	args.view = pass.address("view");
+	args.step_count = pass.rateStepCount();
+	args.lists = pass.repeat();
+	args.deciding_lists = pass.decidingLists();
+	args.split_levels = kSplits.holds(pass.input()) ? pass.input().view.split_levels : 0;
+	// Few visible clusters can keep many workgroups busy: each at its own candidate.
+	pass.dispatchLoop(args, uint64_t(pass.capacity("visible_clusters")) * args.step_count);
+}
+
+static constexpr const Condition* kNeeded[] = { &kTessellates };
+static constexpr std::string_view kShaders[] = { "tessellation/rate_search.comp" };
+
+const PassDesc kRateSearch = { "rate_search", kUses, kNeeded, kShaders, dispatches, record };
+
+}  // namespace tessera
