@@ -1,8 +1,11 @@
-// The micro-triangle that a visibility payload names, evaluated again by the function that its rasteriser used.
+// The micro-triangle that a visibility payload names. Where the place within it matters (EXACT_PLACES: debug views, facets)
+// its corners are evaluated again by the function that its rasteriser used.
 #ifndef TESSERA_LIB_VISIBLE_TRIANGLE
 #define TESSERA_LIB_VISIBLE_TRIANGLE
 #include "lib/frame_data.glsl"
 #include "shared/raster_inputs.h"
+
+const bool EXACT_PLACES = !(IS_SHADED_VIEW && HAS_SMOOTH_NORMALS);
 
 struct VisibleTriangle
 {
@@ -15,9 +18,9 @@ struct VisibleTriangle
 	BaseTriangle base;
 	Placement placement;
 	DomainPiece piece;      // part triangle; the whole base triangle for full clusters
-	DomainPoint corners[3]; // of the micro-triangle, in the base triangle's winding
+	uint mirrored;          // 1: the instance turns triangles over
+	DomainPoint corners[3]; // of the micro-triangle, in the base triangle's winding; with EXACT_PLACES only
 	vec3 relative[3];       // the same, displaced and placed
-	vec3 centre;            // weights of the micro-triangle's centre
 };
 
 DomainPiece wholeTriangle(uint visible, uint triangle)
@@ -52,9 +55,7 @@ void findCorners(RasterInputs inputs, uint payload, inout VisibleTriangle visibl
 		visible.corners[i] = patternPoint(visible.piece, indices[i], pattern, inputs.table, edge_flags);
 }
 
-// `centre_only`: the micro-triangle is about a pixel or less, so its centre stands for every point of it; corners and
-// relative then describe the whole base triangle, undisplaced, which tells directions and derivatives well enough.
-VisibleTriangle visibleTriangle(RasterInputs inputs, uint payload, bool centre_only)
+VisibleTriangle visibleTriangle(RasterInputs inputs, uint payload)
 {
 	VisibleTriangle visible;
 	uint index = payloadIndex(payload);
@@ -71,18 +72,12 @@ VisibleTriangle visibleTriangle(RasterInputs inputs, uint payload, bool centre_o
 	visible.material = cluster.material;
 	visible.largest_factor = visible.piece.a;
 	visible.base = baseTriangle(frame_surface, cluster, visible.triangle);
-	visible.placement = placementOf(inputs.instances.at[ref.instance], frame_view);
-	findCorners(inputs, payload, visible);
-	visible.centre = (domainWeights(visible.corners[0]) + domainWeights(visible.corners[1]) + domainWeights(visible.corners[2])) / 3.0;
-	if (centre_only)
-	{
-		for (uint i = 0u; i < 3u; ++i)
-			visible.corners[i] = domainCorner(i);
-		visible.relative[0] = placed(visible.placement, frame_surface.positions.at[visible.base.v0]);
-		visible.relative[1] = placed(visible.placement, frame_surface.positions.at[visible.base.v1]);
-		visible.relative[2] = placed(visible.placement, frame_surface.positions.at[visible.base.v2]);
+	InstanceRecord instance = inputs.instances.at[ref.instance];
+	visible.placement = placementOf(instance, frame_view);
+	visible.mirrored = HAS_MIRRORED_INSTANCES ? instance.mirrored : 0u;
+	if (!EXACT_PLACES)
 		return visible;
-	}
+	findCorners(inputs, payload, visible);
 	for (uint i = 0u; i < 3u; ++i)
 	{
 		SurfacePoint point = surfacePoint(frame_surface, visible.base, visible.corners[i], visible.placement, frame_view);

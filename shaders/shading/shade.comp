@@ -6,8 +6,9 @@
 //   out  picture   RGBA8, sRGB-encoded
 //   out  counts    covered_pixels
 //
-// The payload names a micro-triangle; its corners are evaluated again by the function that the rasteriser used, and the
-// pixel's ray gives the place within it. Debug views are made here too. One thread per pixel.
+// The payload names a micro-triangle, depth the point on it. For the picture, that point tells the place on the base
+// triangle (lib/surface_place.glsl), and normals come from the height map there; debug views and facets evaluate the
+// micro-triangle's corners again. One workgroup shades a square of 16 x 16 pixels, each thread four of them.
 // Host: src/pipeline/shading/shade.cpp   Test: tests/gpu/picture_test.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -21,7 +22,11 @@
 #include "lib/lighting.glsl"
 #include "lib/pixel_ray.glsl"
 #include "lib/shading_normal.glsl"
+#include "lib/surface_place.glsl"
 #include "lib/visible_triangle.glsl"
+
+const uint TILE_PX = 16u;
+const uint PIXELS_PER_THREAD = 4u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Args { ShadeArgs args; };
@@ -39,6 +44,8 @@ struct SurfacePixel
 	vec3 normal;        // world space, unit, towards the eye
 	vec3 to_eye;        // world space, unit
 	float displacement;
+	vec3 weights_x;     // change of the weights to the pixel at the right, and below
+	vec3 weights_y;
 };
 
 vec3 weightsAt(VisibleTriangle visible, vec3 barycentrics)
@@ -75,21 +82,63 @@ vec3 smoothNormal(inout SurfacePixel pixel, View view)
 	return worldNormal(surface.normal, pixel.visible.placement);
 }
 
-SurfacePixel surfacePixel(uint payload, vec2 centre, View view)
+bool showsBothSides(uint material)
 {
-	SurfacePixel pixel;
-	bool by_centre = IS_SHADED_VIEW && args.centre_only != 0u && payloadKind(payload) == KIND_PART_TRIANGLE;
-	pixel.visible = visibleTriangle(args.inputs, payload, by_centre);
-	pixel.weights = by_centre ? pixel.visible.centre : weightsAt(pixel.visible, insideBarycentrics(barycentricsAt(pixel.visible, centre, view)));
-	pixel.displacement = 0.0;
-	pixel.to_eye = -normalize(pixelRay(centre, view).direction);
-	vec3 normal = HAS_SMOOTH_NORMALS && args.view_mode != VIEW_FACETS ? smoothNormal(pixel, view) : facetNormal(pixel.visible);
+	if (!HAS_MIXED_SIDES)
+		return !HAS_SINGLE_SIDED;
+	return (args.inputs.material_flags.at[material] & MATERIAL_DOUBLE_SIDED) != 0u;
+}
+
+// The place and normal from where the pixel's depth lies.
+void placeByDepth(inout SurfacePixel pixel, float depth, vec2 centre, View view)
+{
+	VisibleTriangle visible = pixel.visible;
+	vec3 start = (domainWeights(visible.piece.c0) + domainWeights(visible.piece.c1) + domainWeights(visible.piece.c2)) / 3.0;
+	TriangleCorners corners = triangleCorners(frame_surface, visible.base);
+	vec3 point = visiblePoint(pixelRay(centre, view), depth, view);
+	SurfacePlace place = placeOf(point, corners, visible.placement, start);
+	pixel.weights = insideBarycentrics(place.weights);
+	vec3 normal = smoothNormal(pixel, view);
+	normal = visible.mirrored != 0u ? -normal : normal;
+	pixel.normal = normalize(dot(normal, normal) > 0.0 ? normal : pixel.to_eye);
+	if (dot(pixel.normal, pixel.to_eye) < 0.0 && showsBothSides(visible.material))
+		pixel.normal = -pixel.normal;
+	if (HAS_COLOR_TEXTURES)
+	{
+		pixel.weights_x = placeChange(place, point, pixel.normal, pixelRay(centre + vec2(1.0, 0.0), view));
+		pixel.weights_y = placeChange(place, point, pixel.normal, pixelRay(centre + vec2(0.0, 1.0), view));
+	}
+}
+
+// The same by the micro-triangle's own corners.
+void placeByCorners(inout SurfacePixel pixel, vec2 centre, View view)
+{
+	vec3 here = barycentricsAt(pixel.visible, centre, view);
+	pixel.weights = weightsAt(pixel.visible, insideBarycentrics(here));
+	if (HAS_COLOR_TEXTURES)
+	{
+		pixel.weights_x = weightsAt(pixel.visible, barycentricsAt(pixel.visible, centre + vec2(1.0, 0.0), view)) - weightsAt(pixel.visible, here);
+		pixel.weights_y = weightsAt(pixel.visible, barycentricsAt(pixel.visible, centre + vec2(0.0, 1.0), view)) - weightsAt(pixel.visible, here);
+	}
+	vec3 facet = facetNormal(pixel.visible);
+	vec3 normal = HAS_SMOOTH_NORMALS && args.view_mode != VIEW_FACETS ? smoothNormal(pixel, view) : facet;
 	pixel.normal = normalize(dot(normal, normal) > 0.0 ? normal : pixel.to_eye);
 	// Faceted normals and double-sided materials face the eye; smooth ones may lean a little behind the horizon.
-	vec3 facet = facetNormal(pixel.visible);
 	bool back = dot(facet, pixel.to_eye) < 0.0;
 	if (back == (dot(pixel.normal, facet) > 0.0))
 		pixel.normal = -pixel.normal;
+}
+
+SurfacePixel surfacePixel(uint payload, float depth, vec2 centre, View view)
+{
+	SurfacePixel pixel;
+	pixel.visible = visibleTriangle(args.inputs, payload);
+	pixel.displacement = 0.0;
+	pixel.to_eye = -normalize(pixelRay(centre, view).direction);
+	if (EXACT_PLACES)
+		placeByCorners(pixel, centre, view);
+	else
+		placeByDepth(pixel, depth, centre, view);
 	return pixel;
 }
 
@@ -99,24 +148,21 @@ vec2 colorUvAt(BaseTriangle base, vec3 weights)
 	return shading.color_uvs.at[base.v0] * weights.x + shading.color_uvs.at[base.v1] * weights.y + shading.color_uvs.at[base.v2] * weights.z;
 }
 
-// Base colour texture, filtered by where the neighbouring pixels' rays meet the micro-triangle's plane.
-vec3 texturedColor(SurfacePixel pixel, uint texture_index, vec2 centre, View view)
+// Base colour texture, filtered over the pixel.
+vec3 texturedColor(SurfacePixel pixel, uint texture_index)
 {
 	BaseTriangle base = pixel.visible.base;
-	vec2 uv = colorUvAt(base, pixel.weights);
-	vec2 uv_x = colorUvAt(base, weightsAt(pixel.visible, barycentricsAt(pixel.visible, centre + vec2(1.0, 0.0), view)));
-	vec2 uv_y = colorUvAt(base, weightsAt(pixel.visible, barycentricsAt(pixel.visible, centre + vec2(0.0, 1.0), view)));
-	vec2 uv_here = args.centre_only != 0u ? colorUvAt(base, weightsAt(pixel.visible, barycentricsAt(pixel.visible, centre, view))) : uv;
-	return textureGrad(color_textures[nonuniformEXT(texture_index)], uv, uv_x - uv_here, uv_y - uv_here).rgb;
+	return textureGrad(color_textures[nonuniformEXT(texture_index)], colorUvAt(base, pixel.weights), colorUvAt(base, pixel.weights_x),
+	                   colorUvAt(base, pixel.weights_y)).rgb;
 }
 
-SurfaceColor materialColor(SurfacePixel pixel, vec2 centre, View view)
+SurfaceColor materialColor(SurfacePixel pixel)
 {
 	ShadingData shading = args.shading.at[0];
 	MaterialRecord material = shading.materials.at[pixel.visible.material];
 	SurfaceColor color = SurfaceColor(material.base_color.rgb, material.emissive, material.metallic, material.roughness);
 	if (HAS_COLOR_TEXTURES && material.color_texture != NO_INDEX)
-		color.base *= texturedColor(pixel, material.color_texture, centre, view);
+		color.base *= texturedColor(pixel, material.color_texture);
 	if (HAS_VERTEX_COLORS)
 	{
 		BaseTriangle base = pixel.visible.base;
@@ -163,7 +209,7 @@ vec3 debugColor(SurfacePixel pixel, float depth, vec2 centre, View view)
 	case VIEW_INSTANCES: return shaped(hashColor(hashNext(17u, visible.instance)), pixel);
 	case VIEW_MATERIALS: return shaped(hashColor(hashNext(29u, visible.material)), pixel);
 	case VIEW_WIREFRAME: return wireframe(vec3(0.55) * (0.3 + 0.7 * max(dot(pixel.normal, pixel.to_eye), 0.0)), pixel, centre, view);
-	default: return litColor(materialColor(pixel, centre, view), pixel.normal, pixel.to_eye);
+	default: return litColor(materialColor(pixel), pixel.normal, pixel.to_eye);
 	}
 }
 
@@ -194,26 +240,18 @@ Visibility visibilityAt(uvec2 place, uint index)
 	return Visibility(texelFetch(visibility_depth, ivec2(place), 0).x, texelFetch(visibility_payload, ivec2(place), 0).x);
 }
 
-void shadePixel(uvec2 place, View view)
+void shadePixel(uint target, vec2 centre, Visibility visibility, View view)
 {
-	uint target = place.y * view.width_px + place.x;
-	vec2 centre = vec2(place) + 0.5;
-	Visibility visibility = visibilityAt(place, target);
-	if (visibility.depth == 0.0)
-	{
-		if (roundIndex() == 0u)
-			args.picture.at[target] = encodePicture(background(pixelRay(centre, view).direction), true);
-		return;
-	}
-	atomicAdd(covered, 1u);
-	if (roundCount() > 1u && visibility.payload == NO_INDEX)
-		return;
-	SurfacePixel pixel = surfacePixel(visibility.payload, centre, view);
+	SurfacePixel pixel = surfacePixel(visibility.payload, visibility.depth, centre, view);
 	if (IS_SHADED_VIEW)
-		args.picture.at[target] = encodePicture(litColor(materialColor(pixel, centre, view), pixel.normal, pixel.to_eye), true);
+		args.picture.at[target] = encodePicture(litColor(materialColor(pixel), pixel.normal, pixel.to_eye), true);
 	else
 		args.picture.at[target] = encodePicture(debugColor(pixel, visibility.depth, centre, view), args.view_mode == VIEW_FACETS);
 }
+
+uvec2 placeInTile(uint i) { return gl_WorkGroupID.xy * TILE_PX + gl_LocalInvocationID.xy + 8u * uvec2(i & 1u, i >> 1); }
+
+bool isInPicture(uvec2 place, View view) { return place.x < view.width_px && place.y < view.height_px; }
 
 void main()
 {
@@ -221,8 +259,28 @@ void main()
 		covered = 0u;
 	barrier();
 	View view = frame_view;
-	if (gl_GlobalInvocationID.x < view.width_px && gl_GlobalInvocationID.y < view.height_px)
-		shadePixel(gl_GlobalInvocationID.xy, view);
+	// All reads first, so that their latencies overlap.
+	Visibility seen[PIXELS_PER_THREAD];
+	for (uint i = 0u; i < PIXELS_PER_THREAD; ++i)
+	{
+		uvec2 place = placeInTile(i);
+		seen[i] = isInPicture(place, view) ? visibilityAt(place, place.y * view.width_px + place.x) : Visibility(0.0, NO_INDEX);
+	}
+	uint count = 0u;
+	for (uint i = 0u; i < PIXELS_PER_THREAD; ++i)
+	{
+		uvec2 place = placeInTile(i);
+		uint target = place.y * view.width_px + place.x;
+		vec2 centre = vec2(place) + 0.5;
+		if (seen[i].depth > 0.0)
+			++count;
+		else if (isInPicture(place, view) && roundIndex() == 0u)
+			args.picture.at[target] = encodePicture(background(pixelRay(centre, view).direction), true);
+		if (seen[i].depth > 0.0 && (roundCount() == 1u || seen[i].payload != NO_INDEX))
+			shadePixel(target, centre, seen[i], view);
+	}
+	if (count > 0u)
+		atomicAdd(covered, count);
 	barrier();
 	if (gl_LocalInvocationIndex == 0u && covered > 0u)
 		atomicAdd(args.counts.at[0].covered_pixels, covered);

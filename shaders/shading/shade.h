@@ -28,10 +28,9 @@ struct ShadeArgs
 	GPU_PTR(FrameCounts) counts;
 	uint64_t visibility;  // address of a 64-bit word per pixel; 0 when attachments hold depth and payload
 	uint view_mode;
-	uint rounds;       // round | round_count << 16
-	uint centre_only;  // 1: micro-triangles of parts are about a pixel or less and shaded by their centre
+	uint rounds;  // round | round_count << 16
 };
-SHARED_LAYOUT(ShadeArgs, 120, centre_only, 112)
+SHARED_LAYOUT(ShadeArgs, 112, rounds, 108)
 
 SHARED_END
 

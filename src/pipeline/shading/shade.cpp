@@ -21,8 +21,7 @@ static constexpr auto kUses = joinUses(surfaceUses(Access::ComputeRead), partUse
 									   } },
 									   std::array<Use, 1>{ { { "picture", Access::ComputeWrite } } });
 
-// Up to this rate a micro-triangle's centre lies within a third of a pixel of every point of it.
-static constexpr double kCentreRate = 0.5;
+constexpr uint32_t kTilePx = 16;  // TILE_PX of the shader
 
 static void record(PassContext& pass)
 {
@@ -34,8 +33,7 @@ static void record(PassContext& pass)
 	args.view_mode = static_cast<uint32_t>(pass.input().options.view);
 	args.visibility = pass.address("visibility_buffer");
 	args.rounds = pass.round() | pass.input().view.rounds << 16;
-	args.centre_only = pass.input().view.rate_px > 0 && pass.input().view.rate_px <= kCentreRate && pass.input().options.smooth_normals ? 1 : 0;
-	pass.dispatch(args, (pass.input().options.width_px + 7) / 8, (pass.input().options.height_px + 7) / 8);
+	pass.dispatch(args, (pass.input().options.width_px + kTilePx - 1) / kTilePx, (pass.input().options.height_px + kTilePx - 1) / kTilePx);
 }
 
 static constexpr std::string_view kShaders[] = { "shading/shade.comp" };
