@@ -26,8 +26,10 @@ RenderOptions uncut(float rate, Raster raster)
 	return options;
 }
 
+using Demand = std::map<std::string, uint64_t>;
+
 // What a frame wants of its lists at coarsening j, by the reference.
-std::map<std::string, uint64_t> demandAt(const GpuFrame& frame, const Camera& camera, uint32_t j)
+Demand demandAt(const GpuFrame& frame, const Camera& camera, uint32_t j)
 {
 	const RenderOptions& options = frame.renderer->planInput().options;
 	ViewRequest request = { options.width_px, options.height_px };
@@ -47,7 +49,7 @@ std::map<std::string, uint64_t> demandAt(const GpuFrame& frame, const Camera& ca
 			 { "expanded_triangles", made.microTriangles() } };
 }
 
-bool fits(const std::map<std::string, uint64_t>& demand, const Capacities& capacities)
+bool fits(const Demand& demand, const Capacities& capacities)
 {
 	return std::all_of(capacities.begin(), capacities.end(), [&](const auto& list) {
 		const auto found = demand.find(list.first);
@@ -102,6 +104,9 @@ TEST_F(rateSearch, eachListAloneAndAllTogetherGiveTheSmallestJThatFits)
 			EXPECT_GE(together.size(), 2u) << name;
 			for (const auto& [list, capacity] : together)
 			{
+				// What a list is does not depend on who draws; each is once the only one.
+				if (raster != rasterPaths().front() && list != "expanded_triangles")
+					continue;
 				options.capacities = { { list, capacity } };
 				GpuFrame tight = drawFrame(*scene, options, camera);
 				const std::string what = fmt::format("{}, raster {}, {}={}", name, int(raster), list, capacity);
