@@ -28,11 +28,6 @@ FactorRule PassContext::factorRule() const
 	return tessera::factorRule(resources_.view(), resources_.tableSize(), std::min(input_.options.max_split, resources_.tableSize()));
 }
 
-const View& PassContext::view() const
-{
-	return resources_.view();
-}
-
 uint32_t PassContext::rateStepCount() const
 {
 	return resources_.rateStepCount();

@@ -28,7 +28,6 @@ public:
 	uint32_t repeat() const { return step_.repeat; }
 	uint32_t round() const;
 	FactorRule factorRule() const;
-	const View& view() const;  // as planned: the granted rate may be coarser
 	uint32_t rateStepCount() const;
 	uint32_t decidingLists() const;  // bit per list whose capacity limits the rate
 
