@@ -19,6 +19,11 @@ layout(constant_id = 13) const bool EXPANDS_TRIANGLES = true;
 layout(constant_id = 15) const bool HAS_HEIGHT_U8 = true;
 layout(constant_id = 16) const bool HAS_HEIGHT_U16 = true;
 layout(constant_id = 17) const bool HAS_HEIGHT_F32 = true;
+layout(constant_id = 18) const bool HAS_WRAP_REPEAT = true;
+layout(constant_id = 19) const bool HAS_WRAP_CLAMP = true;
+layout(constant_id = 20) const bool HAS_WRAP_MIRROR = true;
+layout(constant_id = 21) const bool HAS_MANY_HEIGHT_MAPS = true;
+layout(constant_id = 22) const bool DIRECTIONS_ARE_NORMALS = false;
 layout(constant_id = 14) const bool READS_BUFFER = true;
 
 #endif

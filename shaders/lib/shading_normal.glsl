@@ -21,6 +21,13 @@ struct HeightSlope
 	vec2 slope;
 };
 
+// Two texels beyond the border at most; without the division that a remainder takes.
+int repeated(int texel, int size)
+{
+	texel = texel < 0 ? texel + size : texel;
+	return texel >= size ? texel - size : texel;
+}
+
 HeightSlope levelSlope(HeightMap map, uint first, vec2 folded, uint level)
 {
 	ivec2 size = max(ivec2(map.width, map.height) >> level, ivec2(1));
@@ -30,10 +37,9 @@ HeightSlope levelSlope(HeightMap map, uint first, vec2 folded, uint level)
 	uint columns[4], rows[4];
 	for (int i = 0; i < 4; ++i)
 	{
-		// Two texels beyond the border at most: fold once more where the map is smaller than that.
 		int x = base.x - 1 + i, y = base.y - 1 + i;
-		columns[i] = wrapTexel(map.wrap_u == WRAP_REPEAT ? (x + size.x) % size.x : x, uint(size.x), map.wrap_u);
-		rows[i] = first + uint(size.x) * wrapTexel(map.wrap_v == WRAP_REPEAT ? (y + size.y) % size.y : y, uint(size.y), map.wrap_v);
+		columns[i] = wrapTexel(repeats(map.wrap_u) ? repeated(x, size.x) : x, uint(size.x), map.wrap_u);
+		rows[i] = first + uint(size.x) * wrapTexel(repeats(map.wrap_v) ? repeated(y, size.y) : y, uint(size.y), map.wrap_v);
 	}
 	vec4 upper = vec4(texelHeight(map, rows[1] + columns[0]), texelHeight(map, rows[1] + columns[1]), texelHeight(map, rows[1] + columns[2]),
 	                  texelHeight(map, rows[1] + columns[3]));
@@ -52,24 +58,30 @@ HeightSlope levelSlope(HeightMap map, uint first, vec2 folded, uint level)
 // Displacement, and its change per unit of texture coordinate, blended between two mips.
 HeightSlope displacementSlope(Surface surface, uint map_index, vec2 uv, float level)
 {
-	HeightMap map = surface.height_maps.at[map_index];
+	HeightMap map;
+	map.texels = HEIGHT_MAP(surface, map_index, texels);
+	map.width = HEIGHT_MAP(surface, map_index, width);
+	map.height = HEIGHT_MAP(surface, map_index, height);
+	map.format = HEIGHT_MAP(surface, map_index, format);
+	map.wrap_u = HEIGHT_MAP(surface, map_index, wrap_u);
+	map.wrap_v = HEIGHT_MAP(surface, map_index, wrap_v);
 	vec2 folded = vec2(foldCoordinate(uv.x, map.wrap_u), foldCoordinate(uv.y, map.wrap_v));
 	uint fine = uint(level);
-	HeightSlope result = levelSlope(map, map.level_first[fine], folded, fine);
+	HeightSlope result = levelSlope(map, HEIGHT_MAP(surface, map_index, level_first[fine]), folded, fine);
 	float blend = level - float(fine);
 	if (blend > 0.0)
 	{
-		HeightSlope coarse = levelSlope(map, map.level_first[fine + 1u], folded, fine + 1u);
+		HeightSlope coarse = levelSlope(map, HEIGHT_MAP(surface, map_index, level_first[fine + 1u]), folded, fine + 1u);
 		result.height = mix(result.height, coarse.height, blend);
 		result.slope = mix(result.slope, coarse.slope, blend);
 	}
 	// Mirrored repeats run backwards every other time.
-	if (map.wrap_u == WRAP_MIRROR && fract(uv.x * 0.5) >= 0.5)
+	if (HAS_WRAP_MIRROR && map.wrap_u == WRAP_MIRROR && fract(uv.x * 0.5) >= 0.5)
 		result.slope.x = -result.slope.x;
-	if (map.wrap_v == WRAP_MIRROR && fract(uv.y * 0.5) >= 0.5)
+	if (HAS_WRAP_MIRROR && map.wrap_v == WRAP_MIRROR && fract(uv.y * 0.5) >= 0.5)
 		result.slope.y = -result.slope.y;
-	result.height = result.height * map.factor + map.offset;
-	result.slope *= map.factor;
+	result.height = result.height * HEIGHT_MAP(surface, map_index, factor) + HEIGHT_MAP(surface, map_index, offset);
+	result.slope *= HEIGHT_MAP(surface, map_index, factor);
 	return result;
 }
 
@@ -91,7 +103,7 @@ ShadingSurface displacedNormal(Surface surface, BaseTriangle base, vec3 weights,
 	HeightSource source = ownHeightSource(triangleCorners(surface, base), base.height_map, weights);
 	vec3 base_point = weightedVec3(p0, p1, p2, weights);
 
-	uint level_count = surface.height_maps.at[base.height_map].level_count;
+	uint level_count = HEIGHT_MAP(surface, base.height_map, level_count);
 	float level = pixelHeightLevel(placed(placement, base_point), placement, source.density, level_count, view);
 	HeightSlope height = displacementSlope(surface, base.height_map, source.uv, level);
 	result.displacement = height.height * view.displacement_scale;

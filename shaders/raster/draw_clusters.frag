@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_mesh_shader : require
 #include "lib/features.glsl"
+#include "lib/frame_data.glsl"
 #include "raster/draw_clusters.h"
 #include "lib/sides.glsl"
 

@@ -11,6 +11,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/features.glsl"
+#include "lib/frame_data.glsl"
 #include "raster/evaluate_vertices.h"
 #include "lib/work_item.glsl"
 

@@ -8,7 +8,7 @@
 //
 // The payload names a micro-triangle, depth the point on it. For the picture, that point tells the place on the base
 // triangle (lib/surface_place.glsl), and normals come from the height map there; debug views and facets evaluate the
-// micro-triangle's corners again. One workgroup shades a square of 16 x 16 pixels, each thread four of them.
+// micro-triangle's corners again. One thread a pixel.
 // Host: src/pipeline/shading/shade.cpp   Test: tests/gpu/picture_test.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -25,10 +25,7 @@
 #include "lib/surface_place.glsl"
 #include "lib/visible_triangle.glsl"
 
-const uint TILE_PX = 16u;
-const uint PIXELS_PER_THREAD = 4u;
-
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 16, local_size_y = 16) in;
 layout(push_constant, scalar) uniform Args { ShadeArgs args; };
 layout(set = 0, binding = 0) uniform sampler2D color_textures[];
 layout(set = 0, binding = 1) uniform utexture2D visibility_payload;
@@ -73,10 +70,11 @@ vec3 worldNormal(vec3 normal, Placement placement)
 
 vec3 smoothNormal(inout SurfacePixel pixel, View view)
 {
-	ShadingData shading = args.shading.at[0];
 	BaseTriangle base = pixel.visible.base;
-	vec3 authored = shading.normals.at[base.v0] * pixel.weights.x + shading.normals.at[base.v1] * pixel.weights.y +
-	                shading.normals.at[base.v2] * pixel.weights.z;
+	// Read once, as directions, where they are the same.
+	bool as_directions = HAS_DISPLACEMENT && DIRECTIONS_ARE_NORMALS;
+	vec3Ref normals = as_directions ? frame_surface.directions : args.shading.at[0].normals;
+	vec3 authored = normals.at[base.v0] * pixel.weights.x + normals.at[base.v1] * pixel.weights.y + normals.at[base.v2] * pixel.weights.z;
 	ShadingSurface surface = displacedNormal(frame_surface, base, pixel.weights, authored, pixel.visible.placement, view);
 	pixel.displacement = surface.displacement;
 	return worldNormal(surface.normal, pixel.visible.placement);
@@ -240,8 +238,20 @@ Visibility visibilityAt(uvec2 place, uint index)
 	return Visibility(texelFetch(visibility_depth, ivec2(place), 0).x, texelFetch(visibility_payload, ivec2(place), 0).x);
 }
 
-void shadePixel(uint target, vec2 centre, Visibility visibility, View view)
+void shadePlace(uvec2 place, View view)
 {
+	uint target = place.y * view.width_px + place.x;
+	vec2 centre = vec2(place) + 0.5;
+	Visibility visibility = visibilityAt(place, target);
+	if (visibility.depth == 0.0)
+	{
+		if (roundIndex() == 0u)
+			args.picture.at[target] = encodePicture(background(pixelRay(centre, view).direction), true);
+		return;
+	}
+	atomicAdd(covered, 1u);
+	if (roundCount() > 1u && visibility.payload == NO_INDEX)
+		return;
 	SurfacePixel pixel = surfacePixel(visibility.payload, visibility.depth, centre, view);
 	if (IS_SHADED_VIEW)
 		args.picture.at[target] = encodePicture(litColor(materialColor(pixel), pixel.normal, pixel.to_eye), true);
@@ -249,38 +259,15 @@ void shadePixel(uint target, vec2 centre, Visibility visibility, View view)
 		args.picture.at[target] = encodePicture(debugColor(pixel, visibility.depth, centre, view), args.view_mode == VIEW_FACETS);
 }
 
-uvec2 placeInTile(uint i) { return gl_WorkGroupID.xy * TILE_PX + gl_LocalInvocationID.xy + 8u * uvec2(i & 1u, i >> 1); }
-
-bool isInPicture(uvec2 place, View view) { return place.x < view.width_px && place.y < view.height_px; }
-
 void main()
 {
 	if (gl_LocalInvocationIndex == 0u)
 		covered = 0u;
 	barrier();
 	View view = frame_view;
-	// All reads first, so that their latencies overlap.
-	Visibility seen[PIXELS_PER_THREAD];
-	for (uint i = 0u; i < PIXELS_PER_THREAD; ++i)
-	{
-		uvec2 place = placeInTile(i);
-		seen[i] = isInPicture(place, view) ? visibilityAt(place, place.y * view.width_px + place.x) : Visibility(0.0, NO_INDEX);
-	}
-	uint count = 0u;
-	for (uint i = 0u; i < PIXELS_PER_THREAD; ++i)
-	{
-		uvec2 place = placeInTile(i);
-		uint target = place.y * view.width_px + place.x;
-		vec2 centre = vec2(place) + 0.5;
-		if (seen[i].depth > 0.0)
-			++count;
-		else if (isInPicture(place, view) && roundIndex() == 0u)
-			args.picture.at[target] = encodePicture(background(pixelRay(centre, view).direction), true);
-		if (seen[i].depth > 0.0 && (roundCount() == 1u || seen[i].payload != NO_INDEX))
-			shadePixel(target, centre, seen[i], view);
-	}
-	if (count > 0u)
-		atomicAdd(covered, count);
+	uvec2 place = gl_GlobalInvocationID.xy;
+	if (place.x < view.width_px && place.y < view.height_px)
+		shadePlace(place, view);
 	barrier();
 	if (gl_LocalInvocationIndex == 0u && covered > 0u)
 		atomicAdd(args.counts.at[0].covered_pixels, covered);

@@ -63,6 +63,7 @@ SHARED_FN uint packBaseTriangle(uint v0, uint v1, uint v2, uint edge_flags, uint
 }
 
 // A height map with its mips, box-filtered at load; texels of all levels one after another.
+#define UNIFORM_HEIGHT_MAPS 64  // up to this many are read from a uniform buffer
 #define MAX_HEIGHT_LEVELS 16
 #define HEIGHT_U8 0u
 #define HEIGHT_U16 1u

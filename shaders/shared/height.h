@@ -14,12 +14,21 @@ struct TexelPair
 	float blend;
 };
 
+SHARED_FN bool repeats(uint wrap)
+{
+	return HAS_WRAP_REPEAT && (!(HAS_WRAP_CLAMP || HAS_WRAP_MIRROR) || wrap == WRAP_REPEAT);
+}
+SHARED_FN bool clamps(uint wrap)
+{
+	return HAS_WRAP_CLAMP && (!(HAS_WRAP_REPEAT || HAS_WRAP_MIRROR) || wrap == WRAP_CLAMP);
+}
+
 // Folds a texture coordinate into 0..1 by the wrap mode. Exact but for the last rounding.
 SHARED_FN precise float foldCoordinate(float coordinate, uint wrap)
 {
-	if (wrap == WRAP_CLAMP)
+	if (clamps(wrap))
 		return min(max(coordinate, 0.0f), 1.0f);
-	if (wrap == WRAP_REPEAT)
+	if (repeats(wrap))
 	{
 		precise float folded = coordinate - floor(coordinate);
 		return folded;
@@ -33,10 +42,11 @@ SHARED_FN precise float foldCoordinate(float coordinate, uint wrap)
 
 SHARED_FN uint wrapTexel(int texel, uint size, uint wrap)
 {
+	bool repeating = repeats(wrap);
 	if (texel < 0)
-		return wrap == WRAP_REPEAT ? size - 1u : 0u;
+		return repeating ? size - 1u : 0u;
 	if (uint(texel) >= size)
-		return wrap == WRAP_REPEAT ? 0u : size - 1u;
+		return repeating ? 0u : size - 1u;
 	return uint(texel);
 }
 
@@ -117,23 +127,23 @@ SHARED_FN precise float heightLevel(float footprint_squared, uint level_count)
 SHARED_FN precise float heightAt(Surface surface, uint map_index, vec2 uv, float level)
 {
 	HeightMap map;
-	map.texels = AT(HeightMap, surface.height_maps, map_index).texels;
-	map.width = AT(HeightMap, surface.height_maps, map_index).width;
-	map.height = AT(HeightMap, surface.height_maps, map_index).height;
-	map.format = AT(HeightMap, surface.height_maps, map_index).format;
-	map.wrap_u = AT(HeightMap, surface.height_maps, map_index).wrap_u;
-	map.wrap_v = AT(HeightMap, surface.height_maps, map_index).wrap_v;
-	map.level_count = AT(HeightMap, surface.height_maps, map_index).level_count;
+	map.texels = HEIGHT_MAP(surface, map_index, texels);
+	map.width = HEIGHT_MAP(surface, map_index, width);
+	map.height = HEIGHT_MAP(surface, map_index, height);
+	map.format = HEIGHT_MAP(surface, map_index, format);
+	map.wrap_u = HEIGHT_MAP(surface, map_index, wrap_u);
+	map.wrap_v = HEIGHT_MAP(surface, map_index, wrap_v);
+	map.level_count = HEIGHT_MAP(surface, map_index, level_count);
 	float u = foldCoordinate(uv.x, map.wrap_u);
 	float v = foldCoordinate(uv.y, map.wrap_v);
 	precise float base = floor(level);
 	precise float blend = level - base;
 	uint fine_level = uint(base);
-	uint fine_first = AT(HeightMap, surface.height_maps, map_index).level_first[fine_level];
+	uint fine_first = HEIGHT_MAP(surface, map_index, level_first[fine_level]);
 	precise float fine = levelHeight(map, fine_first, u, v, fine_level);
 	if (blend == 0.0f)
 		return fine;
-	uint coarse_first = AT(HeightMap, surface.height_maps, map_index).level_first[fine_level + 1u];
+	uint coarse_first = HEIGHT_MAP(surface, map_index, level_first[fine_level + 1u]);
 	precise float coarse = levelHeight(map, coarse_first, u, v, fine_level + 1u);
 	return blendHeights(fine, coarse, blend);
 }

@@ -209,10 +209,9 @@ SHARED_FN precise float displacementAt(Surface surface, HeightSource source, vec
 	precise float density_squared = source.density * source.density;
 	precise float mesh_segment_squared = segment_squared * placement.inverse_scale_squared;
 	precise float footprint_squared = mesh_segment_squared * density_squared;
-	float level = heightLevel(footprint_squared, AT(HeightMap, surface.height_maps, source.height_map).level_count);
+	float level = heightLevel(footprint_squared, HEIGHT_MAP(surface, source.height_map, level_count));
 	float height = heightAt(surface, source.height_map, source.uv, level);
-	precise float scaled =
-		height * AT(HeightMap, surface.height_maps, source.height_map).factor + AT(HeightMap, surface.height_maps, source.height_map).offset;
+	precise float scaled = height * HEIGHT_MAP(surface, source.height_map, factor) + HEIGHT_MAP(surface, source.height_map, offset);
 	precise float displacement = scaled * view.displacement_scale;
 	return displacement;
 }

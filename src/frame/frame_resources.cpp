@@ -165,7 +165,12 @@ Status FrameResources::makeHeightMaps()
 		records.back().texels = texels.address();
 		height_texels_.push_back(std::move(texels));
 	}
-	return upload("height_maps", asBytes(records));
+	// The uniform block has a fixed size.
+	records.resize(std::max<size_t>(records.size(), UNIFORM_HEIGHT_MAPS));
+	TRY(upload("height_maps", asBytes(records)));
+	if (scene_.height_maps.size() <= UNIFORM_HEIGHT_MAPS)
+		bindless_->writeUniform(5, buffer("height_maps").handle());
+	return {};
 }
 
 Status FrameResources::makeSurface(const FramePlan& plan)

@@ -2,6 +2,8 @@
 #include "frame/frame_resources.h"
 #include "shading/material_record.h"
 
+#include <algorithm>
+
 namespace tessera
 {
 
@@ -88,7 +90,7 @@ constexpr ResourceDesc kResources[] = {
 	{ "material_height_maps", "buffer", perMaterial<4> },
 	{ "height_maps", "buffer",
 	  [](const PlanInput& input) -> uint64_t {
-		  return input.sizes.height_maps * sizeof(HeightMap);
+		  return std::max<uint64_t>(input.sizes.height_maps, UNIFORM_HEIGHT_MAPS) * sizeof(HeightMap);
 	  } },
 	{ "height_texels", "texture",
 	  [](const PlanInput& input) -> uint64_t {

@@ -1,5 +1,6 @@
 #include "plan/conditions.h"
 #include "plan/plan.h"
+#include "shared/geometry.h"
 
 namespace tessera
 {
@@ -32,6 +33,11 @@ std::vector<Feature> shaderFeatures(const PlanInput& input)
 		feature("HAS_HEIGHT_U8", 15, input.scene.has_height_u8, "no height map has 8-bit texels"),
 		feature("HAS_HEIGHT_U16", 16, input.scene.has_height_u16, "no height map has 16-bit texels"),
 		feature("HAS_HEIGHT_F32", 17, input.scene.has_height_f32, "no height map has float texels"),
+		feature("HAS_WRAP_REPEAT", 18, input.scene.has_wrap_repeat, "no height map repeats"),
+		feature("HAS_WRAP_CLAMP", 19, input.scene.has_wrap_clamp, "no height map is clamped"),
+		feature("HAS_WRAP_MIRROR", 20, input.scene.has_wrap_mirror, "no height map repeats mirrored"),
+		feature("HAS_MANY_HEIGHT_MAPS", 21, input.sizes.height_maps > UNIFORM_HEIGHT_MAPS, "the height maps fit into a uniform buffer"),
+		feature("DIRECTIONS_ARE_NORMALS", 22, input.scene.directions_are_normals, "some direction differs from the normal"),
 	};
 }
 

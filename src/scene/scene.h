@@ -55,6 +55,9 @@ struct SceneTraits
 	bool has_height_u8 = false;     // formats of the height maps
 	bool has_height_u16 = false;
 	bool has_height_f32 = false;
+	bool has_wrap_repeat = false;  // wrap modes of the height maps
+	bool has_wrap_clamp = false;
+	bool has_wrap_mirror = false;
 	bool has_color_textures = false;
 	bool has_vertex_colors = false;
 	bool has_single_sided = false;

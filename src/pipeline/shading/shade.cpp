@@ -21,7 +21,7 @@ static constexpr auto kUses = joinUses(surfaceUses(Access::ComputeRead), partUse
 									   } },
 									   std::array<Use, 1>{ { { "picture", Access::ComputeWrite } } });
 
-constexpr uint32_t kTilePx = 16;  // TILE_PX of the shader
+constexpr uint32_t kTilePx = 16;  // side of a workgroup
 
 static void record(PassContext& pass)
 {

@@ -35,6 +35,12 @@ void findTraits(BuiltScene& scene)
 		traits.has_height_u8 |= map.record.format == HEIGHT_U8;
 		traits.has_height_u16 |= map.record.format == HEIGHT_U16;
 		traits.has_height_f32 |= map.record.format == HEIGHT_F32;
+		for (const uint32_t wrap : { map.record.wrap_u, map.record.wrap_v })
+		{
+			traits.has_wrap_repeat |= wrap == WRAP_REPEAT;
+			traits.has_wrap_clamp |= wrap == WRAP_CLAMP;
+			traits.has_wrap_mirror |= wrap == WRAP_MIRROR;
+		}
 	}
 	traits.has_color_textures = !scene.color_textures.empty();
 	traits.has_vertex_colors = !scene.colors.empty();
