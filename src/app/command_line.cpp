@@ -21,8 +21,9 @@ struct CommandDesc
 
 constexpr CommandDesc kCommands[] = {
 	{ Command::Render, "render", "draw one picture of SCENE" },
-	{ Command::Export, "export", "write SCENE as one .glb file" },
+	{ Command::Export, "export", "write the micro-triangles of SCENE as a mesh, .glb or .ply; all of them unless --cull is given" },
 	{ Command::Info, "info", "what the device offers, what SCENE needs, what is left out and why" },
+	{ Command::Verify, "verify", "check that SCENE is drawn watertight, without holes, whatever is culled, the same every time, and right" },
 };
 
 constexpr const char* kSharedGroup = "shared";
@@ -44,17 +45,38 @@ std::string sceneHelp()
 	return text;
 }
 
+void addVerifyOptions(CLI::App& app, CommandLine& line)
+{
+	app.add_option("--rates", line.rates, "rates to verify at, pixels (default: --rate)")
+		->type_name("A,B,...")
+		->delimiter(',')
+		->check(CLI::Range(0.0f, 1e6f));
+	app.add_option("--cameras", line.random_cameras,
+				   "random cameras beside the chosen one and the scene's: far, close, inside, grazing, narrow, wide")
+		->type_name("N")
+		->check(CLI::Range(0u, 1000000u))
+		->capture_default_str();
+	app.add_option("--seed", line.seed, "of cameras, orders and faults")->type_name("N")->capture_default_str();
+	app.add_option("--json", line.stats, "the report as JSON; - is standard output")->type_name("FILE|-");
+	app.add_option("--inject", line.inject, "break something on purpose: the check that guards it must fail")
+		->type_name("FAULT")
+		->check(CLI::IsMember({ "crack", "drop", "cull", "nan", "tie" }));
+	app.add_option("--against", line.against, "another device, compared with the first")->type_name("NAME|N");
+}
+
 void addCommandOptions(CLI::App& app, CommandLine& line)
 {
 	const char* otherwise = line.command == Command::Info ? "default: none" : "default: the first built-in scene";
 	app.add_option("SCENE", line.scene, otherwise)->type_name("");
-	if (line.command != Command::Info)
+	if (line.command == Command::Render || line.command == Command::Export)
 		app.add_option("-o,--output", line.output, line.command == Command::Render ? "picture (default tessera.png)" : "file to write")
 			->type_name("FILE");
 	if (line.command == Command::Render)
 		app.add_option("--stats", line.stats, "counts and times as JSON; - is standard output")->type_name("FILE|-");
 	if (line.command == Command::Export)
-		app.add_flag("--base", line.base, "the scene as loaded, before tessellation");
+		app.add_flag("--base", line.base, "the scene as loaded, before tessellation (.glb)");
+	if (line.command == Command::Verify)
+		addVerifyOptions(app, line);
 	if (line.command == Command::Info)
 	{
 		app.add_flag("--print-plan", line.print_plan, "passes, barriers and resources of a frame, and why the others are left out");
@@ -105,6 +127,10 @@ Result<CommandLine> parseCommand(const CommandDesc& command, std::vector<std::st
 	CLI::App app{ std::string(command.help), "tessera " + std::string(command.name) };
 	app.formatter(std::make_shared<HelpFormatter>());
 	app.get_formatter()->column_width(32);
+	if (command.command == Command::Verify)
+		TRY(setOption(*findOption("size"), "640x360", line.options));
+	if (command.command == Command::Export)
+		TRY(setOption(*findOption("cull"), "off", line.options));
 	addCommandOptions(app, line);
 	addSharedOptions(app, line.options, status);
 	app.footer(sceneHelp() + "\nOptions of every command\n" + optionsHelp());

@@ -11,6 +11,7 @@ enum class Command : uint8_t
 	Render,
 	Export,
 	Info,
+	Verify,
 };
 
 struct CommandLine
@@ -19,7 +20,12 @@ struct CommandLine
 	std::string text;   // of ShowText
 	std::string scene;  // file or builtin:name; empty: none given
 	std::string output;
-	std::string stats;  // file, "-" = standard output, empty = none
+	std::string stats;            // file, "-" = standard output, empty = none; of verify: its report
+	std::vector<float> rates;     // of verify; empty: --rate
+	uint32_t random_cameras = 6;  // of verify
+	uint64_t seed = 1;
+	std::string inject;   // a fault's name; empty: none
+	std::string against;  // a second device; empty: none
 	bool base = false, print_plan = false, json = false;
 	AppOptions options;
 };

@@ -25,6 +25,8 @@ Status runCommand(const CommandLine& line)
 		return exportCommand(line);
 	case Command::Info:
 		return infoCommand(line);
+	case Command::Verify:
+		return verifyCommand(line);
 	}
 	return {};
 }

@@ -8,8 +8,11 @@ namespace tessera
 // Draws --warmup and --frames frames; writes the picture of the last and its stats.
 Status renderCommand(const CommandLine& line);
 
-// Writes the scene as loaded (--base) as .glb.
+// Writes the micro-triangles that a frame draws as .glb or .ply, or the scene as loaded (--base) as .glb.
 Status exportCommand(const CommandLine& line);
+
+// Checks the promises of DESIGN.md, section 4; prints a table. Errors beside the usual: CheckFailed when one is broken.
+Status verifyCommand(const CommandLine& line);
 
 // Prints device, scene and plan on standard output.
 Status infoCommand(const CommandLine& line);

@@ -68,23 +68,6 @@ Result<FrameSeries> drawFrames(Renderer& renderer, const Camera& camera, const A
 	return series;
 }
 
-// What is drawn, found before the device is needed.
-struct Subject
-{
-	TessellationTable table;
-	BuiltScene scene;
-	Camera camera;
-};
-
-Result<Subject> loadSubject(const CommandLine& line)
-{
-	Subject subject;
-	TRY_ASSIGN(subject.table, loadChosenTable(line.options));
-	TRY_ASSIGN(subject.scene, loadScene(line.scene, line.options));
-	TRY_ASSIGN(subject.camera, chooseCamera(subject.scene, line.options));
-	return subject;
-}
-
 // Everything that needs the renderer, so that it is gone, and validated, when this returns.
 Status drawAndWrite(const CommandLine& line, const std::string& picture_path, const Subject& subject, Device& device)
 {
@@ -109,7 +92,7 @@ Status drawAndWrite(const CommandLine& line, const std::string& picture_path, co
 Status renderCommand(const CommandLine& line)
 {
 	TRY_ASSIGN(const std::string picture_path, picturePath(line));
-	TRY_ASSIGN(const Subject subject, loadSubject(line));
+	TRY_ASSIGN(const Subject subject, loadSubject(line.scene, line.options));
 	TRY_ASSIGN(const std::unique_ptr<Device> device,
 			   Device::create({ line.options.device, line.options.validate, line.options.pipeline_statistics }));
 	logInfo("device {}, driver {}", device->name, device->driver);

@@ -162,4 +162,13 @@ Result<Camera> chooseCamera(const BuiltScene& scene, const AppOptions& options)
 	return camera;
 }
 
+Result<Subject> loadSubject(const std::string& scene, const AppOptions& options)
+{
+	Subject subject;
+	TRY_ASSIGN(subject.table, loadChosenTable(options));
+	TRY_ASSIGN(subject.scene, loadScene(scene, options));
+	TRY_ASSIGN(subject.camera, chooseCamera(subject.scene, options));
+	return subject;
+}
+
 }  // namespace tessera

@@ -22,4 +22,15 @@ Result<TessellationTable> loadChosenTable(const AppOptions& options);
 // --near over it. Errors: Usage (no such camera, options that do not span a view).
 Result<Camera> chooseCamera(const BuiltScene& scene, const AppOptions& options);
 
+// What a frame is drawn of, found before the device is needed.
+struct Subject
+{
+	TessellationTable table;
+	BuiltScene scene;
+	Camera camera;
+};
+
+// The table, scene and camera that the options name. Errors: those of the three.
+Result<Subject> loadSubject(const std::string& scene, const AppOptions& options);
+
 }  // namespace tessera

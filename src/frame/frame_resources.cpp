@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "frame/color_mips.h"
+#include "raster/dump_micro.h"
 #include "shading/material_record.h"
 
 #include <algorithm>
@@ -279,6 +280,10 @@ Status FrameResources::make(std::string_view name, const PlanInput& input)
 		return allocate(name, uint64_t(input.options.width_px) * input.options.height_px * 4);
 	if (name == "visibility_buffer")
 		return allocateEmpty(name, uint64_t(input.options.width_px) * input.options.height_px * 8);
+	if (name == "kept_visibility")
+		return allocate(name, uint64_t(input.options.width_px) * input.options.height_px * 8);
+	if (name == "micro_dump")
+		return allocate(name, kFirstDumpItems * sizeof(DumpItem));
 	if (name == "view")
 		return allocate(name, sizeof(View));
 	if (name == "rate_steps")
@@ -346,6 +351,18 @@ uint32_t FrameResources::decidingLists(const PlanInput& input) const
 		lists |= decides ? 1u << list.index : 0;
 	}
 	return lists;
+}
+
+Result<bool> FrameResources::growDump()
+{
+	if (!has("micro_dump"))
+		return false;
+	const uint64_t items = uint64_t(head(LIST_FULL_CLUSTERS).wanted) + (has("batches") ? head(LIST_BATCHES).wanted : 0);
+	if (items * sizeof(DumpItem) <= buffer("micro_dump").bytes())
+		return false;
+	buffers_.erase("micro_dump");
+	TRY(allocate("micro_dump", items * 5 / 4 * sizeof(DumpItem)));
+	return true;
 }
 
 Status FrameResources::writeView(const View& view, uint32_t round, std::span<const RateStep> steps)
@@ -419,7 +436,7 @@ MemoryStats FrameResources::memory() const
 	{
 		if (findList(name) || name == "heads" || name == "counts" || name == "rate_steps")
 			memory.lists += held.bytes();
-		else if (name == "picture" || name == "visibility_buffer")
+		else if (name == "picture" || name == "visibility_buffer" || name == "kept_visibility")
 			memory.images += held.bytes();
 		else
 			memory.geometry += held.bytes();

@@ -14,6 +14,9 @@
 namespace tessera
 {
 
+// Items that micro_dump holds before a frame has shown how many it takes.
+constexpr uint64_t kFirstDumpItems = 1024;
+
 // Names and sizes of all resources, for the planner.
 std::span<const ResourceDesc> resourceDescs();
 
@@ -31,6 +34,9 @@ public:
 	// Makes a list that grows on demand hold `wanted`. True when its capacity has changed, or cannot any more and decides the rate from now
 	// on (decidingLists): the frame can be drawn again. False when nothing has changed.
 	bool grow(const ListDesc& list, uint32_t wanted, const PlanInput& input);
+	// Makes micro_dump, where it is kept, hold every item of the last submitted frame. True when it was too small: the frame
+	// must be drawn again. Errors: BadInput (out of memory).
+	Result<bool> growDump();
 	// Records the uploads of a round. `steps`: candidates of rate_search, empty where the plan has none.
 	Status writeView(const View& view, uint32_t round, std::span<const RateStep> steps = {});
 	// Records that nothing has been seen yet: after rounds that were not drawn to the end.

@@ -43,6 +43,11 @@ uint32_t PassContext::capacity(std::string_view list) const
 	return resources_.capacity(list);
 }
 
+uint64_t PassContext::bytes(std::string_view buffer) const
+{
+	return resources_.buffer(buffer).bytes();
+}
+
 void PassContext::pushBytes(const void* bytes, size_t count) const
 {
 	vkCmdBindPipeline(commands_, pipeline_.bindPoint(), pipeline_.handle());

@@ -45,6 +45,7 @@ public:
 		dispatch(args, loopGroups(most, items_per_group));
 	}
 	uint32_t capacity(std::string_view list) const;
+	uint64_t bytes(std::string_view buffer) const;
 
 	// Draws into the visibility attachments. Rows of mesh workgroups come from the head of `list`.
 	template <typename Args>

@@ -85,6 +85,8 @@ uint32_t workgroupThreads(const Device& device, const PassDesc& pass)
 {
 	if (pass.shaders.front().ends_with(".mesh"))
 		return device.limits.mesh_workgroup_threads;
+	if (device.limits.compute_workgroup_threads > 0)
+		return device.limits.compute_workgroup_threads;
 	if (device.is_cpu)
 		return 32;
 	return pass.name == "raster_micro" || pass.name == "triangle_split" ? 128 : 64;

@@ -71,9 +71,10 @@ class SceneRenderer final : public Renderer
 {
 public:
 	SceneRenderer(Device& device, const BuiltScene& scene, const TessellationTable& table, std::span<const PassDesc* const> passes,
-				  const RenderOptions& options)
-		: device_(device), scene_(scene), table_(table), passes_(passes)
+				  const RenderOptions& options, std::span<const std::string_view> more_outputs)
+		: device_(device), scene_(scene), table_(table), passes_(passes), outputs_(std::begin(kWantedOutputs), std::end(kWantedOutputs))
 	{
+		outputs_.insert(outputs_.end(), more_outputs.begin(), more_outputs.end());
 		input_ = { options, scene.traits, sizesOf(scene), traitsOf(device), {} };
 	}
 
@@ -86,10 +87,12 @@ public:
 		return {};
 	}
 
-	Result<FrameResult> renderFrame(const Camera& camera) override
+	Result<FrameResult> renderFrame(const Camera& camera, const RoundReader& after_round) override
 	{
-		controller_.beginFrame(camera == last_camera_);
+		controller_.beginFrame(!rate_changed_ && camera == last_camera_);
+		rate_changed_ = false;
 		last_camera_ = camera;
+		after_round_ = after_round;
 		growAhead();
 		for (uint32_t attempts = 1;; ++attempts)
 		{
@@ -103,6 +106,14 @@ public:
 			if (controller_.accept(outcome_))
 				return result;
 		}
+	}
+
+	void setRate(float rate_px) override
+	{
+		RenderOptions& options = input_.options;
+		CHECK((rate_px > 0) == (options.rate > 0) && options.raster != Raster::Auto, "rate {} after {}", rate_px, options.rate);
+		rate_changed_ = rate_px != options.rate;
+		options.rate = rate_px;
 	}
 
 	Result<std::vector<uint8_t>> readPicture() override
@@ -154,7 +165,7 @@ private:
 		steps_.clear();
 		if (kTessellates.holds(input_))
 			steps_ = rateSteps(camera, view_, request, attempt.coarsening, bound.largest_factor, table_size, max_split);
-		return planFrame(passes_, resourceDescs(), kWantedOutputs, input_);
+		return planFrame(passes_, resourceDescs(), outputs_, input_);
 	}
 
 	// One attempt: plans, draws all rounds, and leaves in outcome_ whether everything fitted at one rate.
@@ -209,7 +220,10 @@ private:
 		addTimes(result);
 		judge(attempt);
 		addCounts(result);
-		return {};
+		if (!outcome_.fits || grew_)
+			return {};
+		TRY_ASSIGN(grew_, resources_->growDump());
+		return after_round_ && !grew_ ? after_round_(round) : Status{};
 	}
 
 	void addTimes(FrameResult& result) const
@@ -299,6 +313,7 @@ private:
 	const BuiltScene& scene_;
 	const TessellationTable& table_;
 	std::span<const PassDesc* const> passes_;
+	std::vector<std::string_view> outputs_;
 	PlanInput input_;
 	FramePlan plan_;
 	View view_ = {};
@@ -307,6 +322,8 @@ private:
 	RateController controller_;
 	AttemptOutcome outcome_;
 	Camera last_camera_ = {};
+	RoundReader after_round_;
+	bool rate_changed_ = false;
 	std::vector<RateStep> steps_;    // candidates of the attempt
 	bool rounds_left_over_ = false;  // the last attempt ended between rounds: what it saw is still in the visibility buffer
 	uint32_t levels_needed_ = 0;     // more split levels than the host foresaw were needed
@@ -316,9 +333,10 @@ private:
 }  // namespace
 
 Result<std::unique_ptr<Renderer>> Renderer::create(Device& device, const BuiltScene& scene, const TessellationTable& table,
-												   std::span<const PassDesc* const> passes, const RenderOptions& options)
+												   std::span<const PassDesc* const> passes, const RenderOptions& options,
+												   std::span<const std::string_view> more_outputs)
 {
-	auto renderer = std::make_unique<SceneRenderer>(device, scene, table, passes, options);
+	auto renderer = std::make_unique<SceneRenderer>(device, scene, table, passes, options, more_outputs);
 	TRY(renderer->initialize());
 	return renderer;
 }

@@ -6,6 +6,7 @@
 #include "scene/camera.h"
 #include "tables/table.h"
 
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -15,17 +16,27 @@ namespace tessera
 // What every frame is planned back from.
 inline constexpr std::string_view kWantedOutputs[] = { "picture", "counts", "heads" };
 
+// Called after every drawn round of a frame (C2) that fitted, while the lists still hold it. A frame that turns out not to fit starts again
+// at round 0.
+using RoundReader = std::function<Status(uint32_t round)>;
+
 class Renderer
 {
 public:
-	// `passes` in execution order (pipeline/passes.h). The scene, table and device must outlive the renderer.
+	// `passes` in execution order (pipeline/passes.h). `more_outputs`: resources that are wanted beside kWantedOutputs, such as
+	// micro_dump or kept_visibility; static strings. The scene, table and device must outlive the renderer.
 	// Errors: DeviceCannot (a gate that the options need is closed), BadInput (out of memory, picture too large).
 	static Result<std::unique_ptr<Renderer>> create(Device& device, const BuiltScene& scene, const TessellationTable& table,
-													std::span<const PassDesc* const> passes, const RenderOptions& options);
+													std::span<const PassDesc* const> passes, const RenderOptions& options,
+													std::span<const std::string_view> more_outputs = {});
 	virtual ~Renderer() = default;
 
 	// One picture. When lists overflow it is counted again at a coarser rate until it fits; nothing is dropped (C2).
-	virtual Result<FrameResult> renderFrame(const Camera& camera) = 0;
+	virtual Result<FrameResult> renderFrame(const Camera& camera, const RoundReader& after_round = {}) = 0;
+
+	// Another rate for the frames that follow, pixels. Pipelines are specialised by whether it is 0 and lists by the raster path, so neither
+	// may change: both rates 0 or both above, and the raster path not `auto`.
+	virtual void setRate(float rate_px) = 0;
 
 	// The last picture: width x height x 4 bytes, RGBA, sRGB-encoded, rows top to bottom.
 	virtual Result<std::vector<uint8_t>> readPicture() = 0;

@@ -1,5 +1,6 @@
 // Names, kinds and sizes of all resources (what --print-plan says of them).
 #include "frame/frame_resources.h"
+#include "raster/dump_micro.h"
 #include "shading/material_record.h"
 
 #include <algorithm>
@@ -125,6 +126,8 @@ constexpr ResourceDesc kResources[] = {
 	{ "visibility_depth", "image", perPixel<4> },
 	{ "visibility_payload", "image", perPixel<4> },
 	{ "visibility_buffer", "image", perPixel<8> },
+	{ "kept_visibility", "image", perPixel<8> },
+	{ "micro_dump", "buffer", fixedBytes<kFirstDumpItems * sizeof(DumpItem)> },
 	{ "picture", "image", perPixel<4> },
 };
 

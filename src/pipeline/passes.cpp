@@ -6,8 +6,8 @@ namespace tessera
 std::span<const PassDesc* const> framePasses()
 {
 	static constexpr const PassDesc* kPasses[] = {
-		&kFrameBegin, &kInstanceClassify, &kClusterCull, &kClusterClassify, &kTriangleSplit, &kRateSearch,  &kBatchParts,
-		&kRateFit,    &kEvaluateVertices, &kRasterMicro, &kDrawClusters,    &kDrawBatches,   &kDrawIndexed, &kShade,
+		&kFrameBegin,       &kInstanceClassify, &kClusterCull,  &kClusterClassify, &kTriangleSplit, &kRateSearch, &kBatchParts,     &kRateFit,
+		&kEvaluateVertices, &kRasterMicro,      &kDrawClusters, &kDrawBatches,     &kDrawIndexed,   &kDumpMicro,  &kKeepVisibility, &kShade,
 	};
 	return kPasses;
 }

@@ -20,6 +20,8 @@ extern const PassDesc kRasterMicro;
 extern const PassDesc kDrawClusters;
 extern const PassDesc kDrawBatches;
 extern const PassDesc kDrawIndexed;
+extern const PassDesc kDumpMicro;
+extern const PassDesc kKeepVisibility;
 extern const PassDesc kShade;
 
 std::span<const PassDesc* const> framePasses();

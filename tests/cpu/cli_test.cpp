@@ -37,7 +37,8 @@ TEST(program, wrongUsageEndsWithTwo)
 	expectRefused("render builtin:quad --camera 9", 2, "--camera 9");
 	expectRefused("render --capacity part_triangles=0", 2, "part_triangles can hold from 1");
 	expectRefused("render builtin:quad --cluster-size 2x64", 2, "--cluster-size 2x64");
-	expectRefused("export builtin:quad -o quad.glb", 2, "--base");
+	expectRefused("export builtin:quad -o quad.obj", 2, ".glb or .ply");
+	expectRefused("export builtin:quad --base -o quad.ply", 2, ".glb");
 	expectRefused("export builtin:quad --base", 2, "-o");
 }
 

@@ -1,6 +1,7 @@
 // The built shaders, read as binaries: records lie where C++ has them, and shared float code was compiled as it is written
 // (DESIGN.md, section 5: NoContraction, exact operations only, rounding modes). Needs no device.
 #include "culling/cluster_cull.h"
+#include "raster/dump_micro.h"
 #include "raster/evaluate_vertices.h"
 #include "shading/shade.h"
 #include "spirv_module.h"
@@ -139,6 +140,9 @@ std::vector<HostLayout> hostLayouts()
 		LAYOUT(4, ShadingData, normals, color_uvs, colors, materials),
 		LAYOUT(5, IndexedDraw, index_count, instance_count, first_index, vertex_offset, first_instance),
 		LAYOUT(2, FactorRule, table_size, max_split),
+		LAYOUT(5, DumpVertex, displaced, normal, owner, u, v),
+		LAYOUT(2, DumpTriangle, corners, payload),
+		LAYOUT(4, DumpItem, vertex_count, triangle_count, vertices, triangles),
 	};
 }
 

@@ -11,3 +11,13 @@ foreach(name IN ITEMS list_end_test picture_test raster_test rate_search_test te
   add_dependencies(gpu_${name} tessera_shaders)
   gtest_discover_tests(gpu_${name} PROPERTIES LABELS gpu)
 endforeach()
+
+# Runs both the checks in this process and the program.
+foreach(name IN ITEMS verify_test verify_slow_test)
+  add_executable(gpu_${name} ${here}/${name}.cpp ${here}/../cpu/program_run.cpp)
+  target_link_libraries(gpu_${name} PRIVATE gpu_test_base tessera_verify nlohmann_json::nlohmann_json)
+  target_compile_definitions(gpu_${name} PRIVATE TESSERA_PROGRAM="$<TARGET_FILE:tessera>")
+  add_dependencies(gpu_${name} tessera tessera_shaders)
+endforeach()
+gtest_discover_tests(gpu_verify_test PROPERTIES LABELS gpu)
+gtest_discover_tests(gpu_verify_slow_test PROPERTIES LABELS slow TIMEOUT 7200)

@@ -1,0 +1,118 @@
+// dump_micro: write out the very micro-vertices and micro-triangles that a rasteriser draws, for export and verification.
+//
+//   in   full_clusters, batches
+//   out  micro_dump   DumpItem[]   entry i is full cluster i, after those batch i; what exceeds its capacity is left out, and
+//                                  the host makes it larger and draws again
+//
+// Every raster path evaluates its vertices by the same functions from the same lists, so this stands for each of them.
+// Host: src/pipeline/raster/dump_micro.cpp   Test: tests/gpu/export_test.cpp
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Before every include: glslang takes a workgroup size that is used before it is declared for 1.
+layout(local_size_x_id = 0) in;
+#include "lib/features.glsl"
+#include "lib/frame_data.glsl"
+#include "raster/dump_micro.h"
+#include "lib/shading_normal.glsl"
+#include "lib/work_item.glsl"
+
+layout(push_constant, scalar) uniform Args { DumpMicroArgs args; };
+
+// A micro-vertex before its height is read: whose it is, and where in which base triangle.
+struct DumpSource
+{
+	uint owner;
+	DomainPoint name;   // what the dump calls it
+	DomainPoint point;  // in `base`
+	BaseTriangle base;
+	Placement placement;
+	SurfaceSample at;
+};
+
+// A triangle of the cluster that has the vertex, and which of its corners that is.
+uvec2 triangleWithVertex(ClusterRecord cluster, uint vertex)
+{
+	for (uint t = 0u; t < clusterTriangles(cluster); ++t)
+		for (uint corner = 0u; corner < 3u; ++corner)
+			if (triangleVertex(frame_surface.triangles.at[cluster.first_triangle + t], corner) == vertex)
+				return uvec2(t, corner);
+	return uvec2(0u);
+}
+
+DumpSource clusterSource(WorkItem item, uint index)
+{
+	DumpSource source;
+	source.owner = item.visible_cluster;
+	source.name = DomainPoint(index, 0u);
+	uvec2 use = HAS_SMOOTH_NORMALS ? triangleWithVertex(item.cluster, index) : uvec2(0u);
+	source.base = baseTriangle(frame_surface, item.cluster, use.x);
+	source.point = domainCorner(use.y);
+	source.placement = placementOf(item.instance, frame_view);
+	source.at = clusterSample(args.inputs, item.cluster, index);
+	return source;
+}
+
+DumpSource batchSource(WorkItem item, uint index)
+{
+	uint part = owningPart(index, 0u);
+	DomainPiece piece = unpackTriangle(part_records[part]);
+	DumpSource source;
+	source.owner = batchFirst(item.parts) + part;
+	source.base = part_bases[part];
+	source.point = patternPoint(piece, index - (part_sums[part] & 0xffffu), part_patterns[part], args.inputs.table, triangleEdgeFlags(source.base.flags));
+	source.name = source.point;
+	source.placement = partPlacement(part);
+	source.at = batchSample(args.inputs, index, part);
+	return source;
+}
+
+vec3 normalOf(DumpSource source)
+{
+	if (!HAS_SMOOTH_NORMALS)
+		return vec3(0.0);
+	ShadingData shading = args.shading.at[0];
+	vec3 weights = domainWeights(source.point);
+	vec3 authored = shading.normals.at[source.base.v0] * weights.x + shading.normals.at[source.base.v1] * weights.y +
+	                shading.normals.at[source.base.v2] * weights.z;
+	return displacedNormal(frame_surface, source.base, weights, authored, source.placement, frame_view).normal;
+}
+
+DumpVertex dumpVertex(WorkItem item, uint index)
+{
+	DumpSource source;
+	if (HAS_TESSELLATION && item.is_batch)
+		source = batchSource(item, index);
+	else
+		source = clusterSource(item, index);
+	vec3 point = displaced(frame_surface, source.at, source.placement, frame_view).displaced;
+	return DumpVertex(point, normalOf(source), source.owner, source.name.u, source.name.v);
+}
+
+void dumpItem(WorkItem item, uint index)
+{
+	if (gl_LocalInvocationIndex == 0u)
+	{
+		args.items.at[index].vertex_count = item.vertex_count;
+		args.items.at[index].triangle_count = item.triangle_count;
+	}
+	for (uint v = gl_LocalInvocationIndex; v < item.vertex_count; v += gl_WorkGroupSize.x)
+		args.items.at[index].vertices[v] = dumpVertex(item, v);
+	for (uint t = gl_LocalInvocationIndex; t < item.triangle_count; t += gl_WorkGroupSize.x)
+	{
+		MicroTriangle triangle = itemTriangle(args.inputs, item, t);
+		uint corners = triangle.vertices.x | (triangle.vertices.y << 10) | (triangle.vertices.z << 20);
+		args.items.at[index].triangles[t] = DumpTriangle(corners, triangle.payload);
+	}
+	barrier();
+}
+
+void main()
+{
+	if (args.counts.at[0].overflow != 0u)
+		return;
+	uint cluster_count = args.heads.at[LIST_FULL_CLUSTERS].wanted;
+	uint item_count = cluster_count + (HAS_TESSELLATION ? args.heads.at[LIST_BATCHES].wanted : 0u);
+	item_count = min(item_count, args.item_capacity);
+	for (uint index = gl_WorkGroupID.x; index < item_count; index += gl_NumWorkGroups.x)
+		dumpItem(workItem(args.inputs, args.full_clusters, args.batches, index, cluster_count), index);
+}

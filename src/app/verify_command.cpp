@@ -1,0 +1,98 @@
+#include "app/commands.h"
+#include "app/option_text.h"
+#include "app/scene_load.h"
+#include "app/stats_json.h"
+#include "app/verify_report.h"
+#include "base/log.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace tessera
+{
+
+namespace
+{
+
+verify::Fault faultNamed(const std::string& name)
+{
+	for (size_t i = 0; i < std::size(verify::kFaultNames); ++i)
+		if (verify::kFaultNames[i] == name)
+			return static_cast<verify::Fault>(i);
+	return verify::Fault::None;
+}
+
+// The chosen camera, the scene's and random ones.
+std::vector<verify::NamedCamera> camerasOf(const CommandLine& line, const Subject& subject)
+{
+	std::vector<verify::NamedCamera> cameras = { { "chosen", subject.camera } };
+	const auto add = [&](const std::vector<verify::NamedCamera>& more) {
+		for (const verify::NamedCamera& camera : more)
+			if (!(camera.camera == subject.camera))
+				cameras.push_back(camera);
+	};
+	add(verify::sceneCameras(subject.scene));
+	add(verify::randomCameras(subject.scene, line.seed, line.random_cameras));
+	return cameras;
+}
+
+Result<verify::Request> requestFor(const CommandLine& line, const Subject& subject, Device& device)
+{
+	if (subject.scene.instances.empty() || subject.scene.triangles.empty())
+		return badInput("{}: there is nothing to verify, no instance has a triangle", subject.scene.path);
+	verify::Request request;
+	request.device = &device;
+	request.scene = &subject.scene;
+	request.table = &subject.table;
+	AppOptions uncut = line.options;
+	TRY(setOption(*findOption("cull"), "off", uncut));
+	request.options = line.options;
+	request.uncut_options = uncut;
+	request.paths = line.options.raster == Raster::Auto ? verify::rasterPaths(device) : std::vector{ line.options.raster };
+	request.cameras = camerasOf(line, subject);
+	request.rates = line.rates.empty() ? std::vector{ line.options.rate } : line.rates;
+	request.seed = line.seed;
+	request.fault = faultNamed(line.inject);
+	return request;
+}
+
+Status tell(const CommandLine& line, const Subject& subject, const Device& device, const verify::Report& report)
+{
+	if (line.stats != "-")
+	{
+		std::fputs(verifyTable(report, device, subject.scene).c_str(), stdout);
+		std::fflush(stdout);
+	}
+	if (!line.stats.empty())
+		TRY(writeJson(line.stats, verifyJson(report, device, subject.scene, line.options, line.seed, line.inject)));
+	const std::string injected = line.inject.empty() ? "" : fmt::format(" (fault injected: {})", line.inject);
+	if (report.violations() > 0)
+		return fail(ExitCode::CheckFailed, "verify: {}: {}{}", subject.scene.path, violatedChecks(report), injected);
+	if (!line.inject.empty())
+		logWarning("the injected fault was not found: {}", report.injected.empty() ? "nothing is seen from these cameras" : report.injected);
+	return {};
+}
+
+}  // namespace
+
+Status verifyCommand(const CommandLine& line)
+{
+	TRY_ASSIGN(const Subject subject, loadSubject(line.scene, line.options));
+	TRY_ASSIGN(const std::unique_ptr<Device> device, Device::create({ line.options.device, line.options.validate }));
+	logInfo("device {}, driver {}", device->name, device->driver);
+	std::unique_ptr<Device> other;
+	if (!line.against.empty())
+	{
+		TRY_ASSIGN(other, Device::create({ line.against, line.options.validate }));
+		logInfo("against {}, driver {}", other->name, other->driver);
+	}
+	TRY_ASSIGN(verify::Request request, requestFor(line, subject, *device));
+	request.other_device = other.get();
+	TRY_ASSIGN(const verify::Report report, verify::run(request));
+	TRY(tell(line, subject, *device, report));
+	if (const uint32_t count = device->validationMessages() + (other ? other->validationMessages() : 0))
+		return fail(ExitCode::CheckFailed, "--validate: the validation layer had {}", counted(count, "message"));
+	return {};
+}
+
+}  // namespace tessera

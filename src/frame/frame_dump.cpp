@@ -1,0 +1,84 @@
+#include "frame/frame_dump.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace tessera
+{
+
+namespace
+{
+
+// All of a list or buffer; empty when the plan leaves it out.
+template <typename T>
+Result<std::vector<T>> readAll(Renderer& renderer, std::string_view name)
+{
+	if (!renderer.plan().keeps(name))
+		return std::vector<T>();
+	TRY_ASSIGN(const std::vector<std::byte> bytes, renderer.readResource(name));
+	std::vector<T> items(bytes.size() / sizeof(T));
+	if (!items.empty())
+		std::memcpy(static_cast<void*>(items.data()), bytes.data(), items.size() * sizeof(T));
+	return items;
+}
+
+// An item may name only what exists: later code indexes by it.
+bool isSound(const FrameDump& dump, size_t index)
+{
+	const DumpItem& item = dump.items[index];
+	if (item.vertex_count > DUMP_ITEM_VERTICES || item.triangle_count > DUMP_ITEM_TRIANGLES)
+		return false;
+	const size_t owners = dump.isBatch(index) ? dump.parts.size() : dump.visible.size();
+	for (uint32_t v = 0; v < item.vertex_count; ++v)
+		if (item.vertices[v].owner >= owners)
+			return false;
+	for (uint32_t t = 0; t < item.triangle_count; ++t)
+		for (uint32_t corner = 0; corner < 3; ++corner)
+			if (cornerOf(item.triangles[t], corner) >= item.vertex_count)
+				return false;
+	return true;
+}
+
+}  // namespace
+
+Result<FrameDump> readLists(Renderer& renderer)
+{
+	FrameDump dump;
+	TRY_ASSIGN(dump.visible, readAll<ClusterRef>(renderer, "visible_clusters"));
+	TRY_ASSIGN(const std::vector<DomainTriangle> records, readAll<DomainTriangle>(renderer, "part_triangles"));
+	TRY_ASSIGN(const std::vector<FullCluster> full, readAll<FullCluster>(renderer, "full_clusters"));
+	dump.parts.reserve(records.size());
+	for (const DomainTriangle& record : records)
+		dump.parts.push_back(unpackTriangle(record));
+	for (const FullCluster& cluster : full)
+		dump.full_clusters.push_back(cluster.visible_cluster);
+	const auto exists = [&](uint32_t visible) {
+		return visible < dump.visible.size();
+	};
+	if (!std::all_of(dump.full_clusters.begin(), dump.full_clusters.end(), exists) ||
+		!std::all_of(dump.parts.begin(), dump.parts.end(), [&](const DomainPiece& part) { return exists(part.visible_cluster); }))
+		return fail(ExitCode::CheckFailed, "a full cluster or part triangle of the frame names a visible cluster that does not exist");
+	return dump;
+}
+
+Result<FrameDump> readDump(Renderer& renderer)
+{
+	TRY_ASSIGN(FrameDump dump, readLists(renderer));
+	TRY_ASSIGN(const std::vector<Batch> batches, readAll<Batch>(renderer, "batches"));
+	TRY_ASSIGN(dump.items, readAll<DumpItem>(renderer, "micro_dump"));
+	const size_t wanted = dump.full_clusters.size() + batches.size();
+	if (dump.items.size() < wanted)
+		return badInput("the frame has {} full clusters and batches, and {} were read back", wanted, dump.items.size());
+	dump.items.resize(wanted);
+	for (size_t i = 0; i < wanted; ++i)
+		if (!isSound(dump, i))
+			return fail(ExitCode::CheckFailed, "item {} of the frame's {} full clusters and batches names what does not exist", i, wanted);
+	return dump;
+}
+
+Result<std::vector<uint64_t>> readVisibility(Renderer& renderer)
+{
+	return readAll<uint64_t>(renderer, "kept_visibility");
+}
+
+}  // namespace tessera

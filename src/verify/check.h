@@ -1,0 +1,52 @@
+// What a check of verify says: how often a promise was broken, where it was worst, and what was looked at.
+#pragma once
+#include "shared/geometry.h"
+
+#include <map>
+#include <string>
+
+namespace tessera::verify
+{
+
+// The promises, in the order of the report. Contracts: DESIGN.md, section 4.
+inline constexpr std::string_view kWatertight = "watertight";        // C1
+inline constexpr std::string_view kNoHoles = "no_holes";             // C2: every base triangle covered exactly once
+inline constexpr std::string_view kNoLeaks = "no_leaks";             // C1 in the picture: no background within the silhouette
+inline constexpr std::string_view kConservative = "conservative";    // C3
+inline constexpr std::string_view kDeterministic = "deterministic";  // C4
+inline constexpr std::string_view kFinite = "finite_and_right";
+inline constexpr std::string_view kDevices = "device_against_device";
+
+constexpr DomainPoint kNoPoint = { NO_INDEX, NO_INDEX };
+
+// Where something is wrong; NO_INDEX: does not apply.
+struct Place
+{
+	ClusterRef cluster = { NO_INDEX, NO_INDEX };
+	uint32_t triangle = NO_INDEX;
+	DomainPoint point = kNoPoint;
+	std::string what;   // what is wrong there
+	std::string frame;  // camera, rate and raster path
+};
+std::string describe(const Place& place);
+
+// Something that is wrong as a whole.
+Place nowhere(std::string what);
+
+struct CheckResult
+{
+	uint64_t violations = 0;
+	double worst = 0;                       // size of the worst one, in the check's own measure
+	Place place;                            // of the worst one
+	std::map<std::string, uint64_t> sums;   // what was looked at and counted
+	std::map<std::string, double> largest;  // what was measured
+
+	void violation(double size, const Place& at);
+	void measure(const std::string& name, double value);
+	// Adds what another frame, path or part of the scene gave.
+	void merge(const CheckResult& other);
+	// Says in which frame the worst violation is.
+	void setFrame(const std::string& frame);
+};
+
+}  // namespace tessera::verify

@@ -1,0 +1,68 @@
+#include "verify/leak_check.h"
+
+#include <fmt/format.h>
+
+namespace tessera::verify
+{
+
+namespace
+{
+
+constexpr double kStep_px = 1.0 / 16;
+constexpr double kSamples[5][2] = { { 0, 0 }, { kStep_px, kStep_px }, { kStep_px, -kStep_px }, { -kStep_px, kStep_px }, { -kStep_px, -kStep_px } };
+constexpr uint8_t kAll = 31;
+
+// Side of the line from a to b on which (x, y) lies. From b to a it gives exactly the opposite.
+double sideOf(const ScreenPoint& a, const ScreenPoint& b, double x, double y)
+{
+	const bool turned = b.x < a.x || (b.x == a.x && b.y < a.y);
+	const ScreenPoint &low = turned ? b : a, &high = turned ? a : b;
+	const double side = (high.x - low.x) * (y - low.y) - (high.y - low.y) * (x - low.x);
+	return turned ? -side : side;
+}
+
+// Borders belong to both sides.
+bool covers(const std::array<ScreenPoint, 3>& p, double x, double y)
+{
+	const double a = sideOf(p[0], p[1], x, y), b = sideOf(p[1], p[2], x, y), c = sideOf(p[2], p[0], x, y);
+	return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
+}
+
+void paint(const std::array<ScreenPoint, 3>& p, uint32_t width, uint32_t height, std::vector<uint8_t>& covered)
+{
+	const PixelBox box = pixelBox(p, width, height);
+	for (uint32_t y = box.y0; y < box.y1; ++y)
+		for (uint32_t x = box.x0; x < box.x1; ++x)
+		{
+			uint8_t& samples = covered[size_t(y) * width + x];
+			for (uint32_t i = 0; i < 5 && samples != kAll; ++i)
+				if (covers(p, x + 0.5 + kSamples[i][0], y + 0.5 + kSamples[i][1]))
+					samples |= uint8_t(1u << i);
+		}
+}
+
+}  // namespace
+
+CheckResult checkLeaks(const Screen& screen, std::span<const MicroTriangle> set, const VisiblePicture& picture)
+{
+	std::vector<uint8_t> covered(size_t(screen.width()) * screen.height());
+	for (const MicroTriangle& t : set)
+	{
+		std::array<ScreenPoint, 3> points;
+		if (screen.project(t, points) && screen.shows(t, points))
+			paint(points, screen.width(), screen.height(), covered);
+	}
+	CheckResult result;
+	for (size_t i = 0; i < covered.size() && i < picture.pixels.size(); ++i)
+	{
+		if (covered[i] != kAll)
+			continue;
+		++result.sums["pixels within the silhouette"];
+		if (!picture.pixels[i].covered())
+			result.violation(1,
+							 nowhere(fmt::format("pixel {}, {} shows the background through the surface", i % screen.width(), i / screen.width())));
+	}
+	return result;
+}
+
+}  // namespace tessera::verify

@@ -1,0 +1,305 @@
+#include "verify/verify.h"
+
+#include "base/log.h"
+#include "frame/lists.h"
+#include "scene/factor_rule.h"
+#include "verify/finite_check.h"
+#include "verify/holes_check.h"
+#include "verify/leak_check.h"
+#include "verify/watertight_check.h"
+
+#include <algorithm>
+
+namespace tessera::verify
+{
+
+namespace
+{
+
+// Depth of the compute rasteriser on two devices: interpolated in float from equal vertices.
+constexpr double kDeviceDepthRoom = 1e-6;
+
+std::vector<NamedCheck> allChecks()
+{
+	return {
+		{ kWatertight, "gap, mesh units", {} },
+		{ kNoHoles, "part of a base triangle", {} },
+		{ kNoLeaks, "pixels", {} },
+		{ kConservative, "depth", {} },
+		{ kDeterministic, "mesh units or counts", {} },
+		{ kFinite, "error, mesh units", {} },
+		{ kDevices, "mesh units or relative depth", {} },
+	};
+}
+
+// Twice the room in the lists that decide whether a frame fits.
+RenderOptions withOtherCapacities(RenderOptions options, const BuiltScene& scene, const Device& device)
+{
+	const PlanInput input = { options, scene.traits, sizesOf(scene), traitsOf(device), {} };
+	const auto capacities = listCapacities(input);
+	for (const std::string_view name : { "part_triangles", "split_triangles", "full_clusters", "visible_clusters" })
+	{
+		const ListDesc* list = findList(name);
+		if (list && capacities)
+			options.capacities[std::string(name)] = std::min((*capacities)[list->index] * 2, mostEntries(*list));
+	}
+	return options;
+}
+
+// All ways of drawing by one raster path.
+struct PathSources
+{
+	Raster path = Raster::Soft;
+	std::unique_ptr<FrameSource> uncut, culled;
+	std::vector<std::unique_ptr<FrameSource>> variations;
+};
+
+class Run
+{
+public:
+	explicit Run(const Request& request) : request_(request), truth_(*request.scene, *request.table) { report_.checks = allChecks(); }
+
+	Result<Report> run()
+	{
+		TRY(makeFault());
+		// Pipelines are specialised by whether the rate is 0.
+		for (const bool zero : { false, true })
+		{
+			std::vector<float> rates;
+			std::copy_if(request_.rates.begin(), request_.rates.end(), std::back_inserter(rates), [&](float rate) { return (rate == 0) == zero; });
+			if (!rates.empty())
+				TRY(runRates(rates));
+		}
+		return std::move(report_);
+	}
+
+private:
+	const BuiltScene& given() const
+	{
+		return request_.fault == Fault::Crack || request_.fault == Fault::Drop || request_.fault == Fault::Nan ? faulty_.scene : *request_.scene;
+	}
+	const BuiltScene& givenToVariations() const { return request_.fault == Fault::Tie ? faulty_.scene : given(); }
+
+	Status makeFault()
+	{
+		if (request_.fault == Fault::None || request_.fault == Fault::Cull)
+			return {};
+		TRY_ASSIGN(faulty_, withFault(*request_.scene, request_.fault, request_.seed));
+		report_.injected = faulty_.what;
+		return {};
+	}
+
+	Result<std::unique_ptr<FrameSource>> source(Device& device, const BuiltScene& scene, RenderOptions options, Raster path, float rate,
+												bool with_micro, const Variation& variation) const
+	{
+		options.raster = path;
+		options.rate = rate;
+		return FrameSource::create(device, truth_, scene, *request_.table, options, with_micro, variation, request_.seed);
+	}
+
+	Result<PathSources> makeSources(Raster path, float rate)
+	{
+		PathSources sources;
+		sources.path = path;
+		Device& device = *request_.device;
+		const RenderOptions& uncut = request_.uncut_options;
+		TRY_ASSIGN(sources.uncut, source(device, given(), uncut, path, rate, true, {}));
+		if (request_.options.cull.any() && request_.fault != Fault::Cull)
+		{
+			TRY_ASSIGN(sources.culled, source(device, given(), request_.options, path, rate, false, {}));
+		}
+		const RenderOptions roomy = withOtherCapacities(uncut, *request_.scene, device);
+		const Variation other_groups = { "other workgroup sizes", false, device.is_cpu ? 64u : 128u,
+										 device.limits.mesh_workgroup_threads == 32 ? 64u : 32u, std::max(1u, device.limits.loop_workgroups / 3) };
+		const Variation plain = { "other capacities" }, shuffled = { "shuffled instances and clusters", true };
+		for (const auto& [options, variation] : { std::pair(&roomy, &plain), std::pair(&uncut, &other_groups), std::pair(&uncut, &shuffled) })
+		{
+			TRY_ASSIGN(auto varied, source(device, givenToVariations(), *options, path, rate, true, *variation));
+			sources.variations.push_back(std::move(varied));
+		}
+		return sources;
+	}
+
+	Status runRates(const std::vector<float>& rates)
+	{
+		std::vector<PathSources> paths;
+		for (const Raster path : request_.paths)
+		{
+			TRY_ASSIGN(PathSources sources, makeSources(path, rates.front()));
+			paths.push_back(std::move(sources));
+		}
+		std::unique_ptr<FrameSource> other;
+		if (request_.other_device)
+		{
+			TRY_ASSIGN(other,
+					   source(*request_.other_device, *request_.scene, request_.uncut_options, request_.paths.front(), rates.front(), true, {}));
+		}
+		size_t done = 0;
+		for (const NamedCamera& camera : request_.cameras)
+			for (const float rate : rates)
+			{
+				logInfo("verifying camera {}, rate {} ({} of {})", camera.name, rate, ++done, request_.cameras.size() * rates.size());
+				TRY(runFrame(camera, rate, paths, other.get()));
+			}
+		return {};
+	}
+
+	Status runFrame(const NamedCamera& camera, float rate, std::vector<PathSources>& paths, FrameSource* other)
+	{
+		const uint64_t before = report_.violations();
+		Capture first;
+		for (PathSources& path : paths)
+		{
+			frame_ = fmt::format("camera {}, rate {}, {}", camera.name, rate, rasterName(path.path));
+			TRY_ASSIGN(Capture uncut, path.uncut->capture(camera.camera, rate));
+			if (first.visible.pixels.empty() || !sameMicro(first, uncut, path.path))
+				checkGeometry(uncut);
+			const Screen screen(truth_, uncut.view);
+			add(kNoLeaks, checkLeaks(screen, uncut.micro, uncut.visible));
+			TRY(checkCulling(path, camera, rate, screen, uncut));
+			TRY(checkVariations(path, camera, rate, uncut));
+			if (first.visible.pixels.empty())
+				first = std::move(uncut);
+		}
+		if (other)
+			TRY(checkDevices(*other, camera, rate, first));
+		const FrameResult& result = first.result;
+		report_.frames.push_back({ camera.name, result.rate_wanted, result.rate_granted, result.every_factor_one, result.counts.micro_triangles,
+								   first.visible.covered(), report_.violations() - before });
+		return {};
+	}
+
+	void add(std::string_view check, CheckResult result)
+	{
+		result.setFrame(frame_);
+		report_.check(check).merge(result);
+	}
+
+	// Every raster path draws the same micro-triangles, or is checked for itself.
+	bool sameMicro(const Capture& first, const Capture& uncut, Raster path)
+	{
+		const CheckResult same = compareMicro(first.micro, uncut.micro, fmt::format("--raster {}'s", rasterName(request_.paths.front())));
+		const bool equal = same.violations == 0;
+		if (first.result.rate_granted == uncut.result.rate_granted)
+			add(kDeterministic, same);
+		if (!equal)
+			logInfo("{} draws other micro-triangles", rasterName(path));
+		return equal;
+	}
+
+	void checkGeometry(const Capture& uncut)
+	{
+		const Screen screen(truth_, uncut.view);
+		add(kWatertight, checkWatertight(truth_, uncut.micro));
+		add(kNoHoles, checkHoles(truth_, uncut.micro));
+		add(kFinite, checkFinite(truth_, uncut.view, screen, uncut.micro));
+		const uint32_t table_size = request_.table->max_edge_segments;
+		const FactorRule rule = factorRule(uncut.view, table_size, std::min(request_.uncut_options.max_split, table_size));
+		const std::vector<ClusterRef> all = reference::allClusters(truth_);
+		MicroSet expected = referenceMicro(truth_, uncut.view, reference::classify(truth_, uncut.view, rule, all));
+		sortMicro(expected);
+		add(kDeterministic, compareMicro(expected, uncut.micro, "the CPU's"));
+		report_.seams.merge(measureSeams(truth_, uncut.view, screen, uncut.micro));
+	}
+
+	// A fault in culling is made for what is seen first.
+	Status makeCullFault(PathSources& path, const NamedCamera& camera, float rate, const Capture& uncut)
+	{
+		if (request_.fault != Fault::Cull || path.culled || !request_.options.cull.any())
+			return {};
+		if (report_.injected.empty() && uncut.visible.covered() > 0)
+		{
+			TRY_ASSIGN(faulty_, withCullFault(*request_.scene, uncut.visible, camera.camera, request_.seed));
+			report_.injected = faulty_.what;
+		}
+		if (!report_.injected.empty())
+		{
+			TRY_ASSIGN(path.culled, source(*request_.device, faulty_.scene, request_.options, path.path, rate, false, {}));
+		}
+		return {};
+	}
+
+	Status checkCulling(PathSources& path, const NamedCamera& camera, float rate, const Screen& screen, const Capture& uncut)
+	{
+		TRY(makeCullFault(path, camera, rate, uncut));
+		if (!path.culled)
+			return {};
+		TRY_ASSIGN(const Capture culled, path.culled->capture(camera.camera, rate));
+		CheckResult result;
+		if (culled.result.rate_granted == uncut.result.rate_granted && culled.result.every_factor_one == uncut.result.every_factor_one)
+			result = checkConservative(screen, uncut.micro, uncut.visible, culled.drawn, culled.visible);
+		else
+			++result.sums["frames not compared: other granted rates"];
+		add(kConservative, std::move(result));
+		return {};
+	}
+
+	Status checkVariations(PathSources& path, const NamedCamera& camera, float rate, const Capture& uncut)
+	{
+		TRY_ASSIGN(const Capture again, path.uncut->capture(camera.camera, rate));
+		add(kDeterministic, compareFrames(uncut, again, "again"));
+		for (const auto& variation : path.variations)
+		{
+			TRY_ASSIGN(const Capture varied, variation->capture(camera.camera, rate));
+			add(kDeterministic, compareFrames(uncut, varied, variation->variation().name));
+		}
+		return {};
+	}
+
+	Status checkDevices(FrameSource& other, const NamedCamera& camera, float rate, const Capture& first)
+	{
+		frame_ = fmt::format("camera {}, rate {}, {}", camera.name, rate, rasterName(request_.paths.front()));
+		TRY_ASSIGN(const Capture there, other.capture(camera.camera, rate));
+		CheckResult result = compareMicro(first.micro, there.micro, "the first device's");
+		CheckResult seen = comparePictures(first.visible, there.visible, "the other device", kDeviceDepthRoom);
+		// Only the compute rasteriser decides in integers which pixels a triangle covers; the drawing paths snap as their device does.
+		if (request_.paths.front() != Raster::Soft)
+		{
+			seen.sums["pixels that see something else"] = seen.violations;
+			seen.violations = 0;
+		}
+		result.merge(seen);
+		add(kDevices, std::move(result));
+		return {};
+	}
+
+	const Request& request_;
+	reference::HostScene truth_;
+	FaultyScene faulty_;
+	Report report_;
+	std::string frame_;
+};
+
+}  // namespace
+
+uint64_t Report::violations() const
+{
+	uint64_t sum = 0;
+	for (const NamedCheck& check : checks)
+		sum += check.result.violations;
+	return sum;
+}
+
+CheckResult& Report::check(std::string_view name)
+{
+	return std::find_if(checks.begin(), checks.end(), [&](const NamedCheck& check) { return check.name == name; })->result;
+}
+
+Result<Report> run(const Request& request)
+{
+	return Run(request).run();
+}
+
+std::vector<Raster> rasterPaths(const Device& device)
+{
+	std::vector<Raster> paths;
+	if (device.gates.buffer_atomics_64)
+		paths.push_back(Raster::Soft);
+	if (device.gates.mesh_shader)
+		paths.push_back(Raster::Mesh);
+	if (device.gates.fragment_primitive_id)
+		paths.push_back(Raster::Indexed);
+	return paths;
+}
+
+}  // namespace tessera::verify
