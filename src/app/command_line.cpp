@@ -68,8 +68,11 @@ void addCommandOptions(CLI::App& app, CommandLine& line)
 {
 	const char* otherwise = line.command == Command::Info ? "default: none" : "default: the first built-in scene";
 	app.add_option("SCENE", line.scene, otherwise)->type_name("");
-	if (line.command == Command::Render || line.command == Command::Export)
-		app.add_option("-o,--output", line.output, line.command == Command::Render ? "picture (default tessera.png)" : "file to write")
+	if (line.command != Command::Info)
+		app.add_option("-o,--output", line.output,
+					   line.command == Command::Render   ? "picture (default tessera.png)"
+					   : line.command == Command::Verify ? "picture of the frame with most violations, marked red (.png)"
+														 : "file to write")
 			->type_name("FILE");
 	if (line.command == Command::Render)
 		app.add_option("--stats", line.stats, "counts and times as JSON; - is standard output")->type_name("FILE|-");

@@ -4,6 +4,7 @@
 #include "app/stats_json.h"
 #include "app/verify_report.h"
 #include "base/log.h"
+#include "output/png.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -63,6 +64,11 @@ Status tell(const CommandLine& line, const Subject& subject, const Device& devic
 		std::fputs(verifyTable(report, device, subject.scene).c_str(), stdout);
 		std::fflush(stdout);
 	}
+	if (!line.output.empty())
+	{
+		TRY(writePng(line.output, line.options.width_px, line.options.height_px, report.picture, 4));
+		logInfo("wrote {}: {}", line.output, report.picture_frame);
+	}
 	if (!line.stats.empty())
 		TRY(writeJson(line.stats, verifyJson(report, device, subject.scene, line.options, line.seed, line.inject)));
 	const std::string injected = line.inject.empty() ? "" : fmt::format(" (fault injected: {})", line.inject);
@@ -77,6 +83,8 @@ Status tell(const CommandLine& line, const Subject& subject, const Device& devic
 
 Status verifyCommand(const CommandLine& line)
 {
+	if (!line.output.empty() && !line.output.ends_with(".png"))
+		return fail(ExitCode::Usage, "-o {}: pictures are written as .png", line.output);
 	TRY_ASSIGN(const Subject subject, loadSubject(line.scene, line.options));
 	TRY_ASSIGN(const std::unique_ptr<Device> device, Device::create({ line.options.device, line.options.validate }));
 	logInfo("device {}, driver {}", device->name, device->driver);

@@ -23,15 +23,20 @@ std::string describe(const Place& place)
 	return place.frame.empty() ? text : text + " [" + place.frame + "]";
 }
 
-Place nowhere(std::string what)
+Place nowhere(std::string what, uint32_t pixel)
 {
 	Place place;
 	place.what = std::move(what);
+	place.pixel = pixel;
 	return place;
 }
 
 void CheckResult::violation(double size, const Place& at)
 {
+	if (at.triangle != NO_INDEX && marked_triangles.size() < kMostMarks)
+		marked_triangles.insert({ at.cluster.instance, at.cluster.cluster, at.triangle });
+	if (at.pixel != NO_INDEX && marked_pixels.size() < kMostMarks)
+		marked_pixels.insert(at.pixel);
 	// Whatever is not a number is as bad as can be.
 	if (violations++ == 0 || size > worst || (std::isnan(size) && !std::isnan(worst)))
 	{
@@ -55,6 +60,10 @@ void CheckResult::merge(const CheckResult& other)
 		place = other.place;
 	}
 	violations += other.violations;
+	if (marked_triangles.size() < kMostMarks)
+		marked_triangles.insert(other.marked_triangles.begin(), other.marked_triangles.end());
+	if (marked_pixels.size() < kMostMarks)
+		marked_pixels.insert(other.marked_pixels.begin(), other.marked_pixels.end());
 	for (const auto& [name, count] : other.sums)
 		sums[name] += count;
 	for (const auto& [name, value] : other.largest)

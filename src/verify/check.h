@@ -2,7 +2,9 @@
 #pragma once
 #include "shared/geometry.h"
 
+#include <array>
 #include <map>
+#include <set>
 #include <string>
 
 namespace tessera::verify
@@ -25,13 +27,14 @@ struct Place
 	ClusterRef cluster = { NO_INDEX, NO_INDEX };
 	uint32_t triangle = NO_INDEX;
 	DomainPoint point = kNoPoint;
-	std::string what;   // what is wrong there
-	std::string frame;  // camera, rate and raster path
+	std::string what;           // what is wrong there
+	std::string frame;          // camera, rate and raster path
+	uint32_t pixel = NO_INDEX;  // of the picture, row by row
 };
 std::string describe(const Place& place);
 
-// Something that is wrong as a whole.
-Place nowhere(std::string what);
+// Something that is wrong as a whole, or at a pixel that shows no triangle.
+Place nowhere(std::string what, uint32_t pixel = NO_INDEX);
 
 struct CheckResult
 {
@@ -40,6 +43,11 @@ struct CheckResult
 	Place place;                            // of the worst one
 	std::map<std::string, uint64_t> sums;   // what was looked at and counted
 	std::map<std::string, double> largest;  // what was measured
+
+	// Where violations are, for the picture: base triangles (instance, cluster, triangle) and pixels; at most kMostMarks of each.
+	static constexpr size_t kMostMarks = 100'000;
+	std::set<std::array<uint32_t, 3>> marked_triangles;
+	std::set<uint32_t> marked_pixels;
 
 	void violation(double size, const Place& at);
 	void measure(const std::string& name, double value);

@@ -59,8 +59,8 @@ CheckResult checkLeaks(const Screen& screen, std::span<const MicroTriangle> set,
 			continue;
 		++result.sums["pixels within the silhouette"];
 		if (!picture.pixels[i].covered())
-			result.violation(1,
-							 nowhere(fmt::format("pixel {}, {} shows the background through the surface", i % screen.width(), i / screen.width())));
+			result.violation(1, nowhere(fmt::format("pixel {}, {} shows the background through the surface", i % screen.width(), i / screen.width()),
+										static_cast<uint32_t>(i)));
 	}
 	return result;
 }

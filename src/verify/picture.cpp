@@ -83,12 +83,10 @@ CheckResult comparePictures(const VisiblePicture& expected, const VisiblePicture
 		}
 		const VisiblePixel& nearer = a.depth > b.depth ? a : b;
 		const std::string sees = a.covered() && b.covered() ? "something else" : a.covered() ? "nothing" : "something";
-		result.violation(std::abs(double(a.depth) - double(b.depth)) / double(nearer.depth),
-						 { nearer.identity.cluster(),
-						   nearer.identity.triangle(),
-						   { nearer.identity.words[3], nearer.identity.words[4] },
-						   fmt::format("{}: pixel {}, {} sees {}", what, i % expected.width_px, i / expected.width_px, sees),
-						   {} });
+		Place place = { nearer.identity.cluster(), nearer.identity.triangle(), { nearer.identity.words[3], nearer.identity.words[4] } };
+		place.what = fmt::format("{}: pixel {}, {} sees {}", what, i % expected.width_px, i / expected.width_px, sees);
+		place.pixel = static_cast<uint32_t>(i);
+		result.violation(std::abs(double(a.depth) - double(b.depth)) / double(nearer.depth), place);
 	}
 	return result;
 }

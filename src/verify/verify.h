@@ -45,6 +45,9 @@ struct Report
 	SeamJump seams;
 	std::vector<FrameLine> frames;
 	std::string injected;  // where the fault is; empty: none
+	// The frame with most violations (the first, when there are none) with what is wrong marked (overlay.h).
+	std::vector<uint8_t> picture;
+	std::string picture_frame;
 
 	uint64_t violations() const;
 	CheckResult& check(std::string_view name);

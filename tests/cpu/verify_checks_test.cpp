@@ -7,6 +7,7 @@
 #include "verify/finite_check.h"
 #include "verify/holes_check.h"
 #include "verify/leak_check.h"
+#include "verify/overlay.h"
 #include "verify/seam_jump.h"
 #include "verify/watertight_check.h"
 
@@ -280,6 +281,23 @@ TEST(verifyChecks, otherIdentitiesAreViolationsAndTiesAreCounted)
 	EXPECT_EQ(comparePictures(picture, other, "again", 0.6).violations, 0u);
 	other.pixels[centre] = {};
 	EXPECT_EQ(comparePictures(picture, other, "again").violations, 1u);
+}
+
+TEST(verifyChecks, violationsAreMarkedInThePicture)
+{
+	const Drawn drawn(cubeScene(1), 8);
+	const VisiblePicture picture = painted(drawn);
+	const std::vector<uint8_t> colors(picture.pixels.size() * 4, 200);
+	const size_t centre = picture.width_px / 2 + picture.width_px * (picture.height_px / 2);
+	const Identity& seen = picture.pixels[centre].identity;
+	CheckResult marks;
+	marks.violation(1, { seen.cluster(), seen.triangle(), kNoPoint, "wrong", {} });
+	marks.violation(1, nowhere("a leak", 3));
+	const std::vector<uint8_t> painted_over = paintViolations(picture, colors, marks);
+	EXPECT_GT(painted_over[4 * centre], 200) << "red";
+	EXPECT_LT(painted_over[4 * centre + 1], 100);
+	EXPECT_EQ(painted_over[4 * 3 + 2], 255) << "magenta";
+	EXPECT_EQ(painted_over[4 * 4], painted_over[4 * 4 + 1]) << "grey elsewhere";
 }
 
 TEST(verifyChecks, seamJumpsAreMeasuredWhereMapsDifferAndAreZeroWhereTheyAgree)
