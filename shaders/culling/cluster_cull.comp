@@ -13,6 +13,7 @@
 #include "lib/frame_data.glsl"
 #include "culling/cluster_cull.h"
 #include "lib/full_clusters.glsl"
+#include "lib/occlusion.glsl"
 
 layout(local_size_x = CLUSTER_GROUP_SIZE) in;
 layout(push_constant, scalar) uniform Args { ClusterCullArgs args; };
@@ -79,8 +80,10 @@ void main()
 		if (visible && first_visible + place < args.heads.at[LIST_VISIBLE_CLUSTERS].capacity)
 		{
 			args.visible_clusters.at[first_visible + place] = ClusterRef(group.instance, cluster);
+			bool hidden = HAS_OCCLUSION && args.emit_full != 0u && wasHidden(args.cluster_bounds.at[cluster], args.instances.at[group.instance]);
 			if (args.emit_full != 0u)
-				listFullCluster(args.heads, args.counts, args.full_clusters, first_full + place, first_visible + place, args.clusters.at[cluster]);
+				listFullCluster(args.heads, args.counts, args.full_clusters, first_full + place, first_visible + place, args.clusters.at[cluster],
+				                hidden ? PHASE_HIDDEN : PHASE_FIRST);
 		}
 		barrier();
 	}

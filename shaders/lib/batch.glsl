@@ -8,6 +8,7 @@
 // Pattern of each part, and 1 when its triangles are emitted with two corners exchanged.
 shared PatternRange part_patterns[BATCH_MAX_PARTS];
 shared uint part_turned[BATCH_MAX_PARTS];
+shared uint part_indices[BATCH_MAX_PARTS];  // into part_triangles
 // Micro-vertices before each part in the low, micro-triangles in the high half; all ones past the last.
 shared uint part_sums[BATCH_MAX_PARTS];
 
@@ -17,14 +18,15 @@ PatternRange patternOf(RasterInputs inputs, DomainPiece piece)
 }
 
 // One lane a part.
-void loadPart(RasterInputs inputs, uint lane, uint part, uint first, DomainPiece piece)
+void loadPart(RasterInputs inputs, uint lane, PartPlace place, uint first_offsets, DomainPiece piece)
 {
 	uint turned = piece.mirror;
 	if (HAS_MIRRORED_INSTANCES)
 		turned ^= inputs.instances.at[inputs.visible_clusters.at[piece.visible_cluster].instance].mirrored;
 	part_patterns[lane] = patternOf(inputs, piece);
 	part_turned[lane] = turned;
-	part_sums[lane] = inputs.part_offsets.at[part] - inputs.part_offsets.at[first];
+	part_indices[lane] = place.part;
+	part_sums[lane] = place.offsets - first_offsets;
 }
 
 // Reads the layout of a batch. Ends with a barrier.
@@ -35,7 +37,10 @@ void loadBatch(RasterInputs inputs, uint batch)
 	if (lane < BATCH_MAX_PARTS)
 		part_sums[lane] = 0xffffffffu;
 	if (lane < batchCount(batch))
-		loadPart(inputs, lane, first + lane, first, unpackTriangle(inputs.part_triangles.at[first + lane]));
+	{
+		PartPlace place = inputs.part_places.at[first + lane];
+		loadPart(inputs, lane, place, inputs.part_places.at[first].offsets, unpackTriangle(inputs.part_triangles.at[place.part]));
+	}
 	barrier();
 }
 
@@ -56,12 +61,12 @@ struct MicroTriangle
 };
 
 // Micro-triangle `index` of a batch, of part `owner`.
-MicroTriangle batchTriangle(RasterInputs inputs, uint index, uint owner, uint batch)
+MicroTriangle batchTriangle(RasterInputs inputs, uint index, uint owner)
 {
 	uint triangle = index - (part_sums[owner] >> 16);
 	MicroTriangle result;
 	result.vertices = patternTriangle(triangle, part_patterns[owner], inputs.table, part_turned[owner]) + (part_sums[owner] & 0xffffu);
-	result.payload = packPayload(KIND_PART_TRIANGLE, batchFirst(batch) + owner, triangle);
+	result.payload = packPayload(KIND_PART_TRIANGLE, part_indices[owner], triangle);
 	return result;
 }
 

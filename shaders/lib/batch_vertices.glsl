@@ -18,9 +18,10 @@ shared float part_v[3u * BATCH_MAX_PARTS];
 shared vec4 part_rows[3u * BATCH_MAX_PARTS];
 shared float part_scales[BATCH_MAX_PARTS];
 
-void loadPartBase(RasterInputs inputs, uint lane, uint part, uint first)
+void loadPartBase(RasterInputs inputs, uint lane, uint first)
 {
-	DomainTriangle record = inputs.part_triangles.at[part];
+	PartPlace place = inputs.part_places.at[first + lane];
+	DomainTriangle record = inputs.part_triangles.at[place.part];
 	DomainPiece piece = unpackTriangle(record);
 	ClusterRef ref = inputs.visible_clusters.at[piece.visible_cluster];
 	ClusterRecord cluster = inputs.clusters.at[ref.cluster];
@@ -30,7 +31,7 @@ void loadPartBase(RasterInputs inputs, uint lane, uint part, uint first)
 	part_materials[lane] = cluster.material;
 	part_instances[lane] = ref.instance;
 	part_on_seam[lane] = HAS_SEAMS && triangleSeamFlags(base.flags) != 0u ? 1u : 0u;
-	loadPart(inputs, lane, part, first, piece);
+	loadPart(inputs, lane, place, inputs.part_places.at[first].offsets, piece);
 }
 
 void loadPartCorner(RasterInputs inputs, uint part, uint corner)
@@ -65,7 +66,7 @@ void loadBatchParts(RasterInputs inputs, uint batch)
 	if (lane < BATCH_MAX_PARTS)
 		part_sums[lane] = 0xffffffffu;
 	if (lane < count)
-		loadPartBase(inputs, lane, first + lane, first);
+		loadPartBase(inputs, lane, first);
 	barrier();
 	for (uint i = lane; i < 3u * count; i += gl_WorkGroupSize.x)
 		loadPartCorner(inputs, i / 3u, i % 3u);

@@ -5,9 +5,10 @@
 #include "shared/geometry.h"
 
 // Counts a full cluster, takes its ranges and writes it to entry `slot` of full_clusters if there is room.
-void listFullCluster(ListHeadRef heads, FrameCountsRef counts, FullClusterRef full_clusters, uint slot, uint visible_cluster, ClusterRecord cluster)
+void listFullCluster(ListHeadRef heads, FrameCountsRef counts, FullClusterRef full_clusters, uint slot, uint visible_cluster, ClusterRecord cluster,
+                     uint phase)
 {
-	FullCluster full = FullCluster(visible_cluster, 0u);
+	FullCluster full = FullCluster(visible_cluster, 0u, phase);
 	atomicAdd(counts.at[0].full_cluster_triangles, clusterTriangles(cluster));
 	if (KEEPS_VERTICES)
 		full.first_vertex = reserveEntries(heads, LIST_MICRO_VERTICES, clusterVertices(cluster));

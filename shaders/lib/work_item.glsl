@@ -77,7 +77,7 @@ vec4 itemVertex(RasterInputs inputs, WorkItem item, uint index)
 MicroTriangle itemTriangle(RasterInputs inputs, WorkItem item, uint index)
 {
 	if (HAS_TESSELLATION && item.is_batch)
-		return batchTriangle(inputs, index, owningPart(index, 16u), item.parts);
+		return batchTriangle(inputs, index, owningPart(index, 16u));
 	return MicroTriangle(clusterTriangle(inputs, item.cluster, item.instance, index), packPayload(KIND_FULL_CLUSTER, item.visible_cluster, index));
 }
 

@@ -57,7 +57,7 @@ DumpSource batchSource(WorkItem item, uint index)
 	uint part = owningPart(index, 0u);
 	DomainPiece piece = unpackTriangle(part_records[part]);
 	DumpSource source;
-	source.owner = batchFirst(item.parts) + part;
+	source.owner = part_indices[part];
 	source.base = part_bases[part];
 	source.point = patternPoint(piece, index - (part_sums[part] & 0xffffu), part_patterns[part], args.inputs.table, triangleEdgeFlags(source.base.flags));
 	source.name = source.point;

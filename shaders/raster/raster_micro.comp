@@ -46,13 +46,22 @@ void rasterItem(WorkItem item, View view)
 	barrier();
 }
 
+// Items of this phase: full clusters by their own word, batches by range.
 void main()
 {
 	if (args.counts.at[0].overflow != 0u)
 		return;
 	View view = frame_view;
+	bool second = HAS_OCCLUSION && args.phase == PHASE_SECOND;
 	uint cluster_count = args.heads.at[LIST_FULL_CLUSTERS].wanted;
-	uint item_count = cluster_count + (HAS_TESSELLATION ? args.heads.at[LIST_BATCHES].wanted : 0u);
+	uint first_batch = HAS_OCCLUSION && second ? args.counts.at[0].second_batches : 0u;
+	uint batch_end = HAS_TESSELLATION ? (HAS_OCCLUSION && !second ? args.counts.at[0].second_batches : args.heads.at[LIST_BATCHES].wanted) : 0u;
+	uint item_count = cluster_count + batch_end - first_batch;
 	for (uint index = gl_WorkGroupID.x; index < item_count; index += gl_NumWorkGroups.x)
-		rasterItem(workItem(args.inputs, args.full_clusters, args.batches, index, cluster_count), view);
+	{
+		if (HAS_OCCLUSION && index < cluster_count && args.full_clusters.at[index].phase != args.phase)
+			continue;
+		uint item = index < cluster_count ? index : index + first_batch;
+		rasterItem(workItem(args.inputs, args.full_clusters, args.batches, item, cluster_count), view);
+	}
 }

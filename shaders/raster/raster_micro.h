@@ -14,8 +14,9 @@ struct RasterMicroArgs
 	GPU_PTR(FullCluster) full_clusters;
 	GPU_PTR(Batch) batches;  // 0 when nothing is tessellated
 	uint64_t visibility;     // address of a 64-bit word per pixel: depth << 32 | payload
+	uint phase;              // PHASE_FIRST or PHASE_SECOND
 };
-SHARED_LAYOUT(RasterMicroArgs, 112, visibility, 104)
+SHARED_LAYOUT(RasterMicroArgs, 120, phase, 112)
 
 SHARED_END
 

@@ -137,17 +137,33 @@ SHARED_FN PlacedReach placedReach(DisplacedBounds bounds, Placement placement, V
 	return reach;
 }
 
-// False only when no displaced point of the piece with undisplaced camera-relative corners p, q, r can be inside the view.
-SHARED_FN bool pieceMayBeVisible(vec3 p, vec3 q, vec3 r, PlacedReach reach, View view)
+// A box along the world's axes around everything that a displaced piece can reach, camera-relative.
+struct PieceBox
+{
+	vec3 centre;
+	vec3 half_size;
+};
+
+// Of the piece with undisplaced camera-relative corners p, q, r.
+SHARED_FN PieceBox pieceBox(vec3 p, vec3 q, vec3 r, PlacedReach reach)
 {
 	vec3 low = vec3(min(min(p.x, q.x), r.x) - reach.slack, min(min(p.y, q.y), r.y) - reach.slack, min(min(p.z, q.z), r.z) - reach.slack);
 	vec3 high = vec3(max(max(p.x, q.x), r.x) + reach.slack, max(max(p.y, q.y), r.y) + reach.slack, max(max(p.z, q.z), r.z) + reach.slack);
 	float x = max(max(reach.axis0.x, -reach.axis0.x) + max(reach.axis1.x, -reach.axis1.x) + max(reach.axis2.x, -reach.axis2.x), 0.0f);
 	float y = max(max(reach.axis0.y, -reach.axis0.y) + max(reach.axis1.y, -reach.axis1.y) + max(reach.axis2.y, -reach.axis2.y), 0.0f);
 	float z = max(max(reach.axis0.z, -reach.axis0.z) + max(reach.axis1.z, -reach.axis1.z) + max(reach.axis2.z, -reach.axis2.z), 0.0f);
-	vec3 half_size = vec3((high.x - low.x) * 0.5f + x, (high.y - low.y) * 0.5f + y, (high.z - low.z) * 0.5f + z);
-	vec3 centre = vec3((low.x + high.x) * 0.5f + reach.centre.x, (low.y + high.y) * 0.5f + reach.centre.y, (low.z + high.z) * 0.5f + reach.centre.z);
-	return placedBoxMayBeVisible(centre, vec3(half_size.x, 0.0f, 0.0f), vec3(0.0f, half_size.y, 0.0f), vec3(0.0f, 0.0f, half_size.z), view);
+	PieceBox box;
+	box.half_size = vec3((high.x - low.x) * 0.5f + x, (high.y - low.y) * 0.5f + y, (high.z - low.z) * 0.5f + z);
+	box.centre = vec3((low.x + high.x) * 0.5f + reach.centre.x, (low.y + high.y) * 0.5f + reach.centre.y, (low.z + high.z) * 0.5f + reach.centre.z);
+	return box;
+}
+
+// False only when no displaced point of the piece can be inside the view.
+SHARED_FN bool pieceMayBeVisible(vec3 p, vec3 q, vec3 r, PlacedReach reach, View view)
+{
+	PieceBox box = pieceBox(p, q, r, reach);
+	return placedBoxMayBeVisible(box.centre, vec3(box.half_size.x, 0.0f, 0.0f), vec3(0.0f, box.half_size.y, 0.0f), vec3(0.0f, 0.0f, box.half_size.z),
+								 view);
 }
 
 SHARED_END

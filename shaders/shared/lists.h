@@ -46,9 +46,12 @@ struct FrameCounts
 	uint listed_again;                   // 1: rate_search emptied the lists and filled them at that rate
 	uint levels_missing;                 // split triangles left over by too few levels; listed again since
 	uint search_finished;                // workgroups of rate_search that have counted
+	uint second_batches;                 // first batch of the second phase
+	uint hidden_parts;                   // not rasterised in the first phase
+	uint revealed_parts;                 // but in the second
 	uint split_count[MAX_SPLIT_LEVELS];  // split triangles appended per level; level 0 by cluster_classify
 };
-SHARED_LAYOUT(FrameCounts, 168, split_count, 40)
+SHARED_LAYOUT(FrameCounts, 180, split_count, 52)
 
 // An entry of cluster_groups: up to CLUSTER_GROUP_SIZE clusters of one instance.
 #define CLUSTER_GROUP_SIZE 64u
@@ -65,10 +68,16 @@ struct FullCluster
 {
 	uint visible_cluster;  // index into visible_clusters
 	uint first_vertex;     // its range of micro_vertices, where vertices are kept there
+	uint phase;            // PHASE_*: when it is rasterised
 };
-SHARED_LAYOUT(FullCluster, 8, first_vertex, 4)
+SHARED_LAYOUT(FullCluster, 12, phase, 8)
 
-// A batch: consecutive part triangles that one workgroup draws.
+// Occlusion culling rasterises what the frame before does not hide, then what this frame's depth so far does not hide either.
+#define PHASE_FIRST 0u
+#define PHASE_SECOND 1u
+#define PHASE_HIDDEN 2u  // hidden by the frame before: neither, unless it is found to be seen
+
+// A batch: consecutive places of part_places that one workgroup draws.
 struct Batch
 {
 	uint parts;         // packBatch
@@ -76,6 +85,13 @@ struct Batch
 	uint first_vertex;  // its range of micro_vertices, where vertices are kept there
 };
 SHARED_LAYOUT(Batch, 12, first_vertex, 8)
+// An entry of part_places: which part comes at this place in the order of batches, and what comes before it.
+struct PartPlace
+{
+	uint part;     // index into part_triangles
+	uint offsets;  // micro-vertices | micro-triangles << 16 of the parts that are packed with it and come before
+};
+SHARED_LAYOUT(PartPlace, 8, offsets, 4)
 #define BATCH_MAX_PARTS 32u
 #define BATCH_WINDOW 128u  // parts that are packed together
 // What a mesh shader can emit at once, and what one pattern can have.

@@ -1,34 +1,41 @@
-// batch_parts: pack consecutive part triangles into batches, each for one workgroup of the rasterising stages.
+// batch_parts: pack part triangles into batches, each for one workgroup of the rasterising stages. Runs a second time, as
+// retest_parts, for what the first time was left out as hidden.
 //
 //   in   part_triangles   DomainTriangle[]   from cluster_classify and triangle_split
 //   out  batches          Batch[]            first part and count; at most 32 parts, and what the stage that draws can hold
-//   out  part_offsets     uint[]             micro-vertices and micro-triangles before each part
+//   out  part_places      PartPlace[]        the order of batches; per window what is seen, then what is hidden
+//   with occlusion culling:
+//   in   frame_history                       depth pyramids of the frame before and of this one
+//   out  window_seen      uint[]             per window: how many of it are seen
+//   out  full_clusters    phase              second time: those that were hidden and are not
 //
-// One workgroup takes BATCH_WINDOW parts at a time: prefix sums of their vertices and triangles give, for every part,
-// where a batch that starts there would end; pointer jumping marks the starts that are reached from the first.
-// At most one batch per part, so batches cannot overflow while its input fits.
-// Host: src/pipeline/tessellation/batch_parts.cpp   Test: tests/gpu/tessellation_test.cpp
+// One workgroup takes a window of BATCH_WINDOW parts at a time: prefix sums of their vertices and triangles give, for every
+// part, where a batch that starts there would end; pointer jumping marks the starts that are reached from the first.
+// Batches cannot overflow while their input fits (src/frame/lists.cpp). What is hidden is decided here and not where parts
+// are made, so that the rate does not depend on it (C2).
+// Host: src/pipeline/tessellation/batch_parts.cpp, retest_parts.cpp   Test: tests/gpu/tessellation_test.cpp, occlusion_test.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/features.glsl"
+#include "lib/frame_data.glsl"
 #include "tessellation/batch_parts.h"
 #include "lib/lists.glsl"
+#include "lib/occlusion.glsl"
 
 layout(local_size_x = BATCH_WINDOW) in;
 layout(push_constant, scalar) uniform Args { BatchPartsArgs args; };
 
-// Sums of all parts before index i: vertices in the low, triangles in the high half (128 x 128 fits 16 bits).
+// Sums over all parts before index i: vertices in the low, triangles in the high half (128 x 128 fits 16 bits).
 shared uint sums[BATCH_WINDOW + 1u];
 shared uint jumps[BATCH_WINDOW + 1u];
 shared uint marks[BATCH_WINDOW + 1u];
+shared uint order[BATCH_WINDOW];  // the window's parts, those to be batched first
 shared uint batch_count;
 shared uint first_batch;
 shared uint first_vertex;
 
-uint partSize(uint part, uint count)
+uint partSize(uint part)
 {
-	if (gl_LocalInvocationIndex >= count)
-		return 0u;
 	DomainPiece piece = unpackTriangle(args.part_triangles.at[part]);
 	PatternRange pattern = args.patterns.at[patternIndex(piece.a, piece.b, piece.c)];
 	return patternVertices(pattern) | (patternTriangles(pattern) << 16);
@@ -90,45 +97,153 @@ void markStarts()
 	}
 }
 
-void main()
+bool partIsHidden(uint part)
+{
+	bool second = args.second_phase != 0u;
+	if (!second && frame_history.has_last == 0u)
+		return false;
+	DomainPiece piece = unpackTriangle(args.part_triangles.at[part]);
+	ClusterRef ref = args.visible_clusters.at[piece.visible_cluster];
+	ClusterRecord cluster = args.clusters.at[ref.cluster];
+	uint triangle = frame_surface.triangles.at[cluster.first_triangle + piece.triangle];
+	vec3 p0 = frame_surface.positions.at[cluster.first_vertex + triangleVertex(triangle, 0u)];
+	vec3 p1 = frame_surface.positions.at[cluster.first_vertex + triangleVertex(triangle, 1u)];
+	vec3 p2 = frame_surface.positions.at[cluster.first_vertex + triangleVertex(triangle, 2u)];
+	vec3 a = weightedVec3(p0, p1, p2, domainWeights(piece.c0));
+	vec3 b = weightedVec3(p0, p1, p2, domainWeights(piece.c1));
+	vec3 c = weightedVec3(p0, p1, p2, domainWeights(piece.c2));
+	DisplacedBounds bounds = args.cluster_bounds.at[ref.cluster];
+	InstanceRecord instance = args.instances.at[ref.instance];
+	if (second)
+		return pieceIsHidden(a, b, c, bounds, instance, frame_view, frame_history.pyramid);
+	return pieceIsHidden(a, b, c, bounds, instance, frame_history.last_view, frame_history.last_pyramid);
+}
+
+// Puts what is seen of places [begin, begin + count) first; returns how many that are. The first time, places are parts.
+uint sortBySeen(uint begin, uint count)
 {
 	uint lane = gl_LocalInvocationIndex;
-	uint part_count = entriesOf(args.heads, LIST_PART_TRIANGLES);
-	for (uint first = gl_WorkGroupID.x * BATCH_WINDOW; first < part_count; first += gl_NumWorkGroups.x * BATCH_WINDOW)
+	uint part = begin + lane;
+	if (args.second_phase != 0u && lane < count)
+		part = args.part_places.at[begin + lane].part;
+	bool seen = lane < count && !partIsHidden(part);
+	scan(seen ? 1u : 0u);
+	uint seen_count = sums[BATCH_WINDOW];
+	uint place = seen ? sums[lane] : seen_count + lane - sums[lane];
+	if (lane < count)
 	{
-		uint count = min(BATCH_WINDOW, part_count - first);
-		uint size = partSize(first + lane, count);
-		scan(size);
-
-		uint end = lane < count ? batchEnd(lane, count) : BATCH_WINDOW;
-		jumps[lane] = lane < count && end < count ? end : BATCH_WINDOW;
-		marks[lane] = lane == 0u ? 1u : 0u;
-		if (lane == 0u)
-		{
-			jumps[BATCH_WINDOW] = BATCH_WINDOW;
-			marks[BATCH_WINDOW] = 0u;
-			batch_count = 0u;
-		}
-		barrier();
-		markStarts();
-
-		bool starts = lane < count && marks[lane] != 0u;
-		uint place = starts ? atomicAdd(batch_count, 1u) : 0u;
-		barrier();
-		if (lane == 0u)
-		{
-			first_batch = reserveEntries(args.heads, LIST_BATCHES, batch_count);
-			addMicroTriangles(args.counts, sums[BATCH_WINDOW] >> 16);
-			if (KEEPS_VERTICES)
-				first_vertex = reserveEntries(args.heads, LIST_MICRO_VERTICES, sums[BATCH_WINDOW] & 0xffffu);
-			if (EXPANDS_TRIANGLES)
-				reserveEntries(args.heads, LIST_EXPANDED_TRIANGLES, sums[BATCH_WINDOW] >> 16);
-		}
-		barrier();
-		if (starts && first_batch + place < args.heads.at[LIST_BATCHES].capacity)
-			args.batches.at[first_batch + place] = Batch(packBatch(first + lane, end - lane), sums[end] - sums[lane], first_vertex + (sums[lane] & 0xffffu));
-		if (lane < count)
-			args.part_offsets.at[first + lane] = sums[lane];
-		barrier();
+		order[place] = part;
+		args.part_places.at[begin + place].part = part;
 	}
+	barrier();
+	return seen_count;
+}
+
+// Batches `count` parts, begin and further in the order.
+void batchWindow(uint begin, uint count)
+{
+	uint lane = gl_LocalInvocationIndex;
+	scan(lane < count ? partSize(HAS_OCCLUSION ? order[lane] : begin + lane) : 0u);
+	uint end = lane < count ? batchEnd(lane, count) : BATCH_WINDOW;
+	jumps[lane] = lane < count && end < count ? end : BATCH_WINDOW;
+	marks[lane] = lane == 0u ? 1u : 0u;
+	if (lane == 0u)
+	{
+		jumps[BATCH_WINDOW] = BATCH_WINDOW;
+		marks[BATCH_WINDOW] = 0u;
+		batch_count = 0u;
+	}
+	barrier();
+	markStarts();
+
+	bool starts = lane < count && marks[lane] != 0u;
+	uint place = starts ? atomicAdd(batch_count, 1u) : 0u;
+	barrier();
+	if (lane == 0u)
+	{
+		first_batch = reserveEntries(args.heads, LIST_BATCHES, batch_count);
+		if (KEEPS_VERTICES)
+			first_vertex = reserveEntries(args.heads, LIST_MICRO_VERTICES, sums[BATCH_WINDOW] & 0xffffu);
+		if (EXPANDS_TRIANGLES)
+			reserveEntries(args.heads, LIST_EXPANDED_TRIANGLES, sums[BATCH_WINDOW] >> 16);
+	}
+	barrier();
+	if (starts && first_batch + place < args.heads.at[LIST_BATCHES].capacity)
+		args.batches.at[first_batch + place] = Batch(packBatch(begin + lane, end - lane), sums[end] - sums[lane], first_vertex + (sums[lane] & 0xffffu));
+	if (lane < count)
+		args.part_places.at[begin + lane] = PartPlace(HAS_OCCLUSION ? order[lane] : begin + lane, sums[lane]);
+	barrier();
+}
+
+// What is seen of a window; the second time, of what the first time was hidden.
+void takeWindow(uint window, uint part_count)
+{
+	uint lane = gl_LocalInvocationIndex;
+	uint begin = window * BATCH_WINDOW;
+	uint count = min(BATCH_WINDOW, part_count - begin);
+	if (args.second_phase != 0u)
+	{
+		uint seen_before = args.window_seen.at[window];
+		begin += seen_before;
+		count -= seen_before;
+	}
+	if (!HAS_OCCLUSION)
+	{
+		batchWindow(begin, count);
+		return;
+	}
+	if (count == 0u)
+		return;
+	uint seen = sortBySeen(begin, count);
+	if (lane == 0u && args.second_phase == 0u)
+	{
+		args.window_seen.at[window] = seen;
+		atomicAdd(args.counts.at[0].hidden_parts, count - seen);
+	}
+	if (lane == 0u && args.second_phase != 0u && seen > 0u)
+		atomicAdd(args.counts.at[0].revealed_parts, seen);
+	if (seen > 0u)
+		batchWindow(begin, seen);
+}
+
+void countTriangles(uint window, uint part_count)
+{
+	uint lane = gl_LocalInvocationIndex;
+	uint part = window * BATCH_WINDOW + lane;
+	scan(part < part_count ? partSize(part) >> 16 : 0u);
+	if (lane == 0u)
+		addMicroTriangles(args.counts, sums[BATCH_WINDOW]);
+	barrier();
+}
+
+void retestClusters()
+{
+	uint stride = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+	uint count = entriesOf(args.heads, LIST_FULL_CLUSTERS);
+	for (uint i = gl_GlobalInvocationID.x; i < count; i += stride)
+	{
+		FullCluster full = args.full_clusters.at[i];
+		if (full.phase != PHASE_HIDDEN)
+			continue;
+		ClusterRef ref = args.visible_clusters.at[full.visible_cluster];
+		DisplacedBounds bounds = args.cluster_bounds.at[ref.cluster];
+		if (!clusterIsHidden(bounds, args.instances.at[ref.instance], frame_view, frame_history.pyramid))
+			args.full_clusters.at[i].phase = PHASE_SECOND;
+	}
+}
+
+void main()
+{
+	bool second = HAS_OCCLUSION && args.second_phase != 0u;
+	if (second && args.counts.at[0].overflow != 0u)
+		return;
+	uint part_count = uint64_t(args.part_triangles) != 0ul ? entriesOf(args.heads, LIST_PART_TRIANGLES) : 0u;
+	for (uint window = gl_WorkGroupID.x; window * BATCH_WINDOW < part_count; window += gl_NumWorkGroups.x)
+	{
+		if (!second)
+			countTriangles(window, part_count);
+		takeWindow(window, part_count);
+	}
+	if (second)
+		retestClusters();
 }

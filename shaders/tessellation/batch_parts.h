@@ -1,6 +1,8 @@
 // Arguments of batch_parts.
 #ifndef TESSERA_TESSELLATION_BATCH_PARTS_H
 #define TESSERA_TESSELLATION_BATCH_PARTS_H
+#include "shared/bounds.h"
+#include "shared/geometry.h"
 #include "shared/lists.h"
 #include "shared/pattern.h"
 
@@ -10,14 +12,21 @@ struct BatchPartsArgs
 {
 	GPU_PTR(ListHead) heads;
 	GPU_PTR(FrameCounts) counts;
-	GPU_PTR(DomainTriangle) part_triangles;
+	GPU_PTR(DomainTriangle) part_triangles;  // 0 when nothing is tessellated
 	GPU_PTR(PatternRange) patterns;
 	GPU_PTR(Batch) batches;
-	GPU_PTR(uint) part_offsets;
+	GPU_PTR(PartPlace) part_places;
+	GPU_PTR(uint) window_seen;  // per window of BATCH_WINDOW parts; this and all below: 0 without occlusion culling
+	GPU_PTR(InstanceRecord) instances;
+	GPU_PTR(ClusterRecord) clusters;
+	GPU_PTR(DisplacedBounds) cluster_bounds;
+	GPU_PTR(ClusterRef) visible_clusters;
+	GPU_PTR(FullCluster) full_clusters;
 	uint most_vertices;  // of a batch
 	uint most_triangles;
+	uint second_phase;  // 1: what was hidden is tested against this frame's pyramid
 };
-SHARED_LAYOUT(BatchPartsArgs, 56, most_triangles, 52)
+SHARED_LAYOUT(BatchPartsArgs, 112, second_phase, 104)
 
 SHARED_END
 

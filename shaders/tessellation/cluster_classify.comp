@@ -17,6 +17,7 @@
 #include "tessellation/cluster_classify.h"
 #include "lib/classify.glsl"
 #include "lib/full_clusters.glsl"
+#include "lib/occlusion.glsl"
 
 layout(local_size_x_id = 0) in;
 layout(push_constant, scalar) uniform Args { ClusterClassifyArgs args; };
@@ -61,12 +62,20 @@ void decideTriangles(ClusterRecord cluster, PlacedReach reach, View view)
 	}
 }
 
+uint fullPhase(uint index)
+{
+	if (!HAS_OCCLUSION)
+		return PHASE_FIRST;
+	ClusterRef ref = args.visible_clusters.at[index];
+	return wasHidden(args.cluster_bounds.at[ref.cluster], args.instances.at[ref.instance]) ? PHASE_HIDDEN : PHASE_FIRST;
+}
+
 void reserve(ClusterRecord cluster, uint index)
 {
 	if (tessellated == 0u)
 	{
 		uint slot = reserveEntries(args.heads, LIST_FULL_CLUSTERS, 1u);
-		listFullCluster(args.heads, args.counts, args.full_clusters, slot, index, cluster);
+		listFullCluster(args.heads, args.counts, args.full_clusters, slot, index, cluster, fullPhase(index));
 		return;
 	}
 	if (part_count > 0u)

@@ -24,6 +24,7 @@ void main()
 		overflow = overflow || wanted > args.heads.at[list].capacity;
 	}
 	args.counts.at[0].overflow = overflow ? 1u : 0u;
+	args.counts.at[0].second_batches = args.heads.at[LIST_BATCHES].wanted;
 	for (uint list = 0u; list < LIST_COUNT; ++list)
 	{
 		if (overflow)

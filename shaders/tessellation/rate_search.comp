@@ -144,7 +144,7 @@ void takeFull()
 	if (args.lists != 0u)
 	{
 		uint slot = reserveEntries(args.heads, LIST_FULL_CLUSTERS, 1u);
-		listFullCluster(args.heads, args.counts, args.full_clusters, slot, visible_index, cluster);
+		listFullCluster(args.heads, args.counts, args.full_clusters, slot, visible_index, cluster, PHASE_FIRST);
 		return;
 	}
 	atomicAdd(args.steps.at[step_index].full_clusters, 1u);

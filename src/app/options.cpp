@@ -78,17 +78,19 @@ struct CullKind
 	std::string_view name;
 	bool CullOptions::*field;
 };
-constexpr CullKind kCullKinds[] = { { "frustum", &CullOptions::frustum }, { "backface", &CullOptions::backface } };
+constexpr CullKind kCullKinds[] = { { "frustum", &CullOptions::frustum },
+									{ "backface", &CullOptions::backface },
+									{ "occlusion", &CullOptions::occlusion } };
 
 Status parseCull(AppOptions& options, std::string_view text)
 {
-	CullOptions cull = { text == "on", text == "on" };
+	CullOptions cull = { text == "on", text == "on", text == "on" };
 	if (text != "on" && text != "off")
 		for (std::string_view part : splitAt(text, ','))
 		{
 			const auto kind = std::find_if(std::begin(kCullKinds), std::end(kCullKinds), [&](const CullKind& k) { return k.name == part; });
 			if (kind == std::end(kCullKinds))
-				return fail(ExitCode::Usage, "on, off, or some of frustum,backface is right");
+				return fail(ExitCode::Usage, "on, off, or some of frustum,backface,occlusion is right");
 			cull.*kind->field = true;
 		}
 	options.cull = cull;
@@ -165,7 +167,7 @@ const std::array kTable = {
 	OptionDesc{ "metric", "NAME", "edge factor: edge = length / distance", choiceOf<&AppOptions::metric>(kMetricNames), 0, 0, Rebuild::Pipelines },
 	OptionDesc{ "raster", "NAME", "who finds visibility; auto takes what measured fastest for the device and the rate",
 				choiceOf<&AppOptions::raster>(kRasterNames), 0, 0, Rebuild::Buffers },
-	OptionDesc{ "cull", "on|off|LIST", "kinds of culling: frustum,backface",
+	OptionDesc{ "cull", "on|off|LIST", "kinds of culling: frustum,backface,occlusion",
 				Custom{ parseCull, printCull,
 						[](const AppOptions& options) {
 							return ordered_json(cullKinds(options));

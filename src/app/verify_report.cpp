@@ -109,12 +109,8 @@ std::string violatedChecks(const verify::Report& report)
 ordered_json verifyJson(const verify::Report& report, const Device& device, const BuiltScene& scene, const AppOptions& options, uint64_t seed,
 						const std::string& inject)
 {
-	ordered_json json = { { "schema", 1 },
-						  { "device", deviceJson(device) },
-						  { "scene", sceneJson(scene) },
-						  { "options", optionsJson(options) },
-						  { "seed", seed },
-						  { "violations", report.violations() } };
+	ordered_json json = { { "schema", 1 },  { "device", deviceJson(device) },     { "scene", sceneJson(scene) }, { "options", optionsJson(options) },
+						  { "seed", seed }, { "violations", report.violations() } };
 	json["injected"] = inject.empty() ? ordered_json(nullptr) : ordered_json{ { "fault", inject }, { "where", report.injected } };
 	for (const NamedCheck& check : report.checks)
 		json["checks"][std::string(check.name)] = checkJson(check);

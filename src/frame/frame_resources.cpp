@@ -238,6 +238,12 @@ bool FrameResources::makesSceneArray(std::string_view name, Status& status)
 	return true;
 }
 
+static uint64_t pyramidBytes(const PlanInput& input)
+{
+	const uint64_t bytes = uint64_t(pyramidFirst(input.options.width_px, input.options.height_px, PYRAMID_LEVELS)) * sizeof(float);
+	return (bytes + 15) / 16 * 16;  // arrays begin on 16-byte boundaries
+}
+
 Status FrameResources::make(std::string_view name, const PlanInput& input)
 {
 	Status status;
@@ -290,8 +296,14 @@ Status FrameResources::make(std::string_view name, const PlanInput& input)
 		return allocate(name, kMostRateSteps * sizeof(RateStep));
 	if (name == "counts")
 		return allocate(name, sizeof(FrameCounts));
-	if (name == "part_offsets")
-		return allocate(name, uint64_t(capacities_[LIST_PART_TRIANGLES]) * sizeof(uint32_t));
+	if (name == "part_places")
+		return allocate(name, uint64_t(capacities_[LIST_PART_TRIANGLES]) * sizeof(PartPlace));
+	if (name == "window_seen")
+		return allocate(name, (uint64_t(capacities_[LIST_PART_TRIANGLES]) / BATCH_WINDOW + 1) * sizeof(uint32_t));
+	if (name == "frame_history")
+		return allocate(name, sizeof(FrameHistory));
+	if (name == "depth_pyramid")
+		return allocateEmpty(name, 2 * pyramidBytes(input));
 	if (name == "indexed_draw")
 		return allocate(name, 20);
 	CHECK(name == "heads" || name == "surface" || name == "shading" || name == "height_texels", "nobody makes resource '{}'", name);
@@ -316,6 +328,8 @@ Status FrameResources::prepare(const FramePlan& plan, const PlanInput& input)
 		bindless_->writeUniform(4, buffer("surface").handle());
 		bindless_->writeUniform(3, buffer("view").handle());
 	}
+	if (has("frame_history"))
+		bindless_->writeUniform(6, buffer("frame_history").handle());
 	if (!has("shading"))
 		TRY(makeShadingData(plan));
 	return lists_changed ? makeHeads() : Status{};
@@ -365,8 +379,23 @@ Result<bool> FrameResources::growDump()
 	return true;
 }
 
+void FrameResources::writeHistory(const View& view)
+{
+	if (!has("frame_history"))
+		return;
+	const uint64_t pyramids = address("depth_pyramid"), bytes = buffer("depth_pyramid").bytes() / 2;
+	FrameHistory history = {};
+	history.has_last = view_.width_px == view.width_px && view_.height_px == view.height_px ? 1 : 0;
+	history.last_view = view_;
+	history.last_pyramid = pyramids + (pyramid_is_second_ ? bytes : 0);
+	history.pyramid = pyramids + (pyramid_is_second_ ? 0 : bytes);
+	pyramid_is_second_ = !pyramid_is_second_;
+	vkCmdUpdateBuffer(commands_->buffer(), buffer("frame_history").handle(), 0, sizeof(history), &history);
+}
+
 Status FrameResources::writeView(const View& view, uint32_t round, std::span<const RateStep> steps)
 {
+	writeHistory(view);
 	round_ = round;
 	view_ = view;
 	vkCmdUpdateBuffer(commands_->buffer(), buffer("view").handle(), 0, sizeof(View), &view);

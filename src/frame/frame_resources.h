@@ -6,6 +6,7 @@
 #include "gpu/commands.h"
 #include "gpu/pipeline.h"
 #include "scene/camera.h"
+#include "shared/history.h"
 #include "tables/table.h"
 #include "tessellation/rate_search.h"
 
@@ -68,6 +69,8 @@ public:
 
 private:
 	FrameResources(Device& device, const BuiltScene& scene, const TessellationTable& table) : device_(device), scene_(scene), table_(table) {}
+	// Which of the two pyramids is this frame's, and what the frame before it saw.
+	void writeHistory(const View& view);
 	Status make(std::string_view name, const PlanInput& input);
 	Status upload(std::string_view name, std::span<const std::byte> bytes);
 	Status allocate(std::string_view name, uint64_t bytes);
@@ -94,8 +97,9 @@ private:
 	std::array<uint32_t, LIST_COUNT> capacities_ = {};
 	uint32_t round_ = 0;
 	View view_ = {};
-	std::vector<RateStep> steps_;  // as uploaded
-	uint32_t fixed_lists_ = 0;     // bit per list that grows no more
+	bool pyramid_is_second_ = false;  // where the last frame's depth pyramid lies
+	std::vector<RateStep> steps_;     // as uploaded
+	uint32_t fixed_lists_ = 0;        // bit per list that grows no more
 
 public:
 	~FrameResources();

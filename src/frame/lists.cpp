@@ -16,7 +16,7 @@ constexpr uint32_t kIndexLimit = (1u << 24) - 1;  // the payload's index has 24 
 constexpr ListDesc kLists[] = {
 	{ "cluster_groups", LIST_CLUSTER_GROUPS, 12, kMillion, 1 },
 	{ "visible_clusters", LIST_VISIBLE_CLUSTERS, 8, kMillion, CLUSTER_GROUP_SIZE },
-	{ "full_clusters", LIST_FULL_CLUSTERS, 8, kMillion, CLUSTER_GROUP_SIZE },
+	{ "full_clusters", LIST_FULL_CLUSTERS, sizeof(FullCluster), kMillion, CLUSTER_GROUP_SIZE },
 	{ "split_triangles", LIST_SPLIT_TRIANGLES, 24, kMillion / 4, 1 },
 	{ "part_triangles", LIST_PART_TRIANGLES, 24, kMillion, 1 },
 	{ "batches", LIST_BATCHES, sizeof(Batch), 1, 1 },
@@ -40,14 +40,14 @@ uint64_t sceneBound(const ListDesc& list, const PlanInput& input)
 	}
 }
 
-// Batches that this many parts can need at most: batches never decide the rate. Parts are packed in windows; a batch that is not
-// the last of its window holds at least as many parts as of the largest patterns fit.
+// Batches that this many parts can need at most: batches never decide the rate. Parts are packed in windows, in two phases; a
+// batch that is not the last of its window and phase holds at least as many parts as of the largest patterns fit.
 uint32_t mostBatches(uint32_t parts, const PlanInput& input)
 {
 	if (!usesSoft(input))
 		return parts;
 	constexpr uint32_t kLeastParts = std::min(RASTER_BATCH_VERTICES / BATCH_MAX_VERTICES, RASTER_BATCH_TRIANGLES / BATCH_MAX_TRIANGLES);
-	return parts / kLeastParts + parts / BATCH_WINDOW + 2;
+	return parts / kLeastParts + 2 * (parts / BATCH_WINDOW + 1);
 }
 
 }  // namespace

@@ -89,7 +89,8 @@ uint32_t workgroupThreads(const Device& device, const PassDesc& pass)
 		return device.limits.compute_workgroup_threads;
 	if (device.is_cpu)
 		return 32;
-	return pass.name == "raster_micro" || pass.name == "triangle_split" ? 128 : 64;
+	const std::string_view shader = pass.shaders.front();
+	return shader == "raster/raster_micro.comp" || shader == "tessellation/triangle_split.comp" ? 128 : 64;
 }
 
 VkCullModeFlags cullMode(const SceneTraits& scene)
@@ -126,12 +127,12 @@ Status PassRunner::makePipeline(const PassDesc& pass, const Constants& constants
 	const VkPipelineLayout layout = resources_.bindless().layout();
 	if (shaders.size() == 1)
 	{
-		TRY_ASSIGN(pipelines_[pass.name], makeComputePipeline(device_, layout, shaders.front(), constants));
+		TRY_ASSIGN(pipelines_[pass.shaders.front()], makeComputePipeline(device_, layout, shaders.front(), constants));
 		return {};
 	}
 	DrawState state;
 	state.cull = cullMode(input.scene);
-	TRY_ASSIGN(pipelines_[pass.name], makeDrawPipeline(device_, layout, shaders, constants, state));
+	TRY_ASSIGN(pipelines_[pass.shaders.front()], makeDrawPipeline(device_, layout, shaders, constants, state));
 	return {};
 }
 
@@ -141,7 +142,7 @@ Status PassRunner::preparePipelines(const FramePlan& plan, const PlanInput& inpu
 	for (const Feature& feature : plan.features)
 		constants[feature.constant_id] = feature.on ? 1 : 0;
 	for (const PlanStep& step : plan.steps)
-		if (!pipelines_.count(step.pass->name))
+		if (!pipelines_.count(step.pass->shaders.front()))
 		{
 			constants[0] = workgroupThreads(device_, *step.pass);
 			TRY(makePipeline(*step.pass, constants, input));
@@ -177,7 +178,7 @@ Status PassRunner::record(const FramePlan& plan, const PlanInput& input)
 			device_.functions.begin_label(commands, &label);
 		}
 		recordBarrier(commands, step);
-		PassContext context(device_, commands, resources_, pipelines_.at(step.pass->name), resources_.bindless().layout(), step, input);
+		PassContext context(device_, commands, resources_, pipelines_.at(step.pass->shaders.front()), resources_.bindless().layout(), step, input);
 		step.pass->record(context);
 		if (device_.functions.end_label)
 			device_.functions.end_label(commands);

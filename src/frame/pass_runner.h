@@ -34,7 +34,7 @@ private:
 
 	Device& device_;
 	FrameResources& resources_;
-	std::map<std::string_view, Pipeline> pipelines_;
+	std::map<std::string_view, Pipeline> pipelines_;  // by first shader: passes may share one
 	VkQueryPool queries_ = VK_NULL_HANDLE;
 	size_t step_count_ = 0;
 	std::vector<double> step_ms_;

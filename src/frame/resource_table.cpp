@@ -2,6 +2,7 @@
 #include "frame/frame_resources.h"
 #include "raster/dump_micro.h"
 #include "shading/material_record.h"
+#include "shared/history.h"
 
 #include <algorithm>
 
@@ -115,9 +116,13 @@ constexpr ResourceDesc kResources[] = {
 	{ "full_clusters", "list", ofList<LIST_FULL_CLUSTERS> },
 	{ "split_triangles", "list", ofList<LIST_SPLIT_TRIANGLES> },
 	{ "part_triangles", "list", ofList<LIST_PART_TRIANGLES> },
-	{ "part_offsets", "list",
+	{ "part_places", "list",
 	  [](const PlanInput& input) -> uint64_t {
-		  return ofList<LIST_PART_TRIANGLES>(input) / sizeof(DomainTriangle) * sizeof(uint32_t);
+		  return ofList<LIST_PART_TRIANGLES>(input) / sizeof(DomainTriangle) * sizeof(PartPlace);
+	  } },
+	{ "window_seen", "list",
+	  [](const PlanInput& input) -> uint64_t {
+		  return (ofList<LIST_PART_TRIANGLES>(input) / sizeof(DomainTriangle) / BATCH_WINDOW + 1) * sizeof(uint32_t);
 	  } },
 	{ "batches", "list", ofList<LIST_BATCHES> },
 	{ "micro_vertices", "list", ofList<LIST_MICRO_VERTICES> },
@@ -128,6 +133,11 @@ constexpr ResourceDesc kResources[] = {
 	{ "visibility_buffer", "image", perPixel<8> },
 	{ "kept_visibility", "image", perPixel<8> },
 	{ "micro_dump", "buffer", fixedBytes<kFirstDumpItems * sizeof(DumpItem)> },
+	{ "frame_history", "buffer", fixedBytes<sizeof(FrameHistory)> },
+	{ "depth_pyramid", "buffer",
+	  [](const PlanInput& input) -> uint64_t {
+		  return 2 * uint64_t(pyramidFirst(input.options.width_px, input.options.height_px, PYRAMID_LEVELS)) * sizeof(float);
+	  } },
 	{ "picture", "image", perPixel<4> },
 };
 

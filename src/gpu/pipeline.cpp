@@ -76,9 +76,10 @@ Result<std::unique_ptr<BindlessSet>> BindlessSet::create(Device& device)
 		{ 3, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_ALL, nullptr },
 		{ 4, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_ALL, nullptr },
 		{ 5, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_ALL, nullptr },
+		{ 6, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_ALL, nullptr },
 	};
 	const VkDescriptorBindingFlags partial = VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT;
-	const VkDescriptorBindingFlags flags[] = { partial, partial, partial, partial, partial, partial };
+	const VkDescriptorBindingFlags flags[] = { partial, partial, partial, partial, partial, partial, partial };
 	VkDescriptorSetLayoutBindingFlagsCreateInfo flags_info = { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO };
 	flags_info.bindingCount = static_cast<uint32_t>(std::size(flags));
 	flags_info.pBindingFlags = flags;
@@ -97,7 +98,7 @@ Result<std::unique_ptr<BindlessSet>> BindlessSet::create(Device& device)
 
 	const VkDescriptorPoolSize sizes[] = { { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kMaxTextures },
 										   { VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 2 },
-										   { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 3 } };
+										   { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 4 } };
 	VkDescriptorPoolCreateInfo pool_info = { VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO };
 	pool_info.maxSets = 1;
 	pool_info.poolSizeCount = 3;

@@ -15,7 +15,7 @@ constexpr uint32_t kMaxTextures = 1024;
 // Specialisation constants by id; a shader uses those it declares.
 using Constants = std::map<uint32_t, uint32_t>;
 
-// The bindless set: binding 0 colour textures, 1 visibility payload, 2 visibility depth, 3 View, 4 Surface, 5 height maps.
+// The bindless set: binding 0 colour textures, 1 visibility payload, 2 visibility depth, 3 View, 4 Surface, 5 height maps, 6 FrameHistory.
 class BindlessSet
 {
 public:

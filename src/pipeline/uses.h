@@ -60,7 +60,7 @@ constexpr std::array<Use, 5> partUses(Access access)
 {
 	return { {
 		{ "part_triangles", access, &kTessellates },
-		{ "part_offsets", access, &kTessellates },
+		{ "part_places", access, &kTessellates },
 		{ "patterns", access, &kTessellates },
 		{ "table_vertices", access, &kTessellates },
 		{ "table_triangles", access, &kTessellates },
@@ -89,7 +89,7 @@ inline RasterInputs rasterInputs(const PassContext& pass, ReadsParts parts = Rea
 	if (parts == ReadsParts::No)
 		return inputs;
 	inputs.part_triangles = pass.address("part_triangles");
-	inputs.part_offsets = pass.address("part_offsets");
+	inputs.part_places = pass.address("part_places");
 	inputs.table = tableView(pass);
 	return inputs;
 }

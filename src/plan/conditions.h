@@ -46,6 +46,10 @@ inline constexpr Condition kCulls = { [](const PlanInput& input) { return input.
 inline constexpr Condition kFrustumCulls = { [](const PlanInput& input) { return input.options.cull.frustum; }, "frustum culling is off" };
 inline constexpr Condition kSoft = { [](const PlanInput& input) { return usesSoft(input) && input.device.buffer_atomics_64; },
 									 "another producer of visibility is chosen, or the device lacks 64-bit buffer atomics" };
+inline constexpr Condition kOcclusionCulls = { [](const PlanInput& input) { return input.options.cull.occlusion && kSoft.holds(input); },
+											   "occlusion culling is off, or attachments hold depth" };
+inline constexpr Condition kPartsMayHide = { [](const PlanInput& input) { return kOcclusionCulls.holds(input) && kTessellates.holds(input); },
+											 "occlusion culling is off, or nothing is tessellated" };
 inline constexpr Condition kMesh = { [](const PlanInput& input) { return usesMesh(input) && input.device.mesh_shader; },
 									 "another producer of visibility is chosen, or the device lacks VK_EXT_mesh_shader" };
 inline constexpr Condition kIndexed = { usesIndexed, "another producer of visibility is chosen" };

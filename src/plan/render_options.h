@@ -43,8 +43,9 @@ enum class ViewMode : uint8_t
 struct CullOptions
 {
 	bool frustum = true;
-	bool backface = true;  // whole clusters by their normal cone; single back faces are never shown in either case
-	bool any() const { return frustum || backface; }
+	bool backface = true;   // whole clusters by their normal cone; single back faces are never shown in either case
+	bool occlusion = true;  // behind what the frame before, or this frame so far, has seen; compute rasteriser only
+	bool any() const { return frustum || backface || occlusion; }
 };
 
 struct RenderOptions

@@ -90,6 +90,8 @@ struct HostLayout
 #define FIELDS_10(T, a, ...) FIELD(T, a), FIELDS_9(T, __VA_ARGS__)
 #define FIELDS_11(T, a, ...) FIELD(T, a), FIELDS_10(T, __VA_ARGS__)
 #define FIELDS_12(T, a, ...) FIELD(T, a), FIELDS_11(T, __VA_ARGS__)
+#define FIELDS_13(T, a, ...) FIELD(T, a), FIELDS_12(T, __VA_ARGS__)
+#define FIELDS_14(T, a, ...) FIELD(T, a), FIELDS_13(T, __VA_ARGS__)
 #define LAYOUT(count, T, ...)              \
 	HostLayout                             \
 	{                                      \
@@ -124,18 +126,18 @@ std::vector<HostLayout> hostLayouts()
 		LAYOUT(11, Surface, positions, directions, uvs, densities, triangles, first_seam_edges, seam_edges, seam_corner_indices, seam_corners,
 			   material_height_maps, height_maps),
 		LAYOUT(8, ListHead, group_width, group_rows, group_depth, wanted, capacity, peak, peak_used, unused),
-		LAYOUT(11, FrameCounts, overflow, covered_pixels, micro_low, micro_high, full_cluster_triangles, expanded_triangles, rate_step, listed_again,
-			   levels_missing, search_finished, split_count),
+		LAYOUT(14, FrameCounts, overflow, covered_pixels, micro_low, micro_high, full_cluster_triangles, expanded_triangles, rate_step, listed_again,
+			   levels_missing, search_finished, second_batches, hidden_parts, revealed_parts, split_count),
 		LAYOUT(11, RateStep, rate_over_focal_squared, sample_over_focal_squared, rule, split_triangles, part_triangles, part_vertices,
 			   part_micro_triangles, full_clusters, full_vertices, full_micro_triangles, abandoned),
 		LAYOUT(3, ClusterGroup, instance, first_cluster, cluster_count),
-		LAYOUT(2, FullCluster, visible_cluster, first_vertex),
+		LAYOUT(3, FullCluster, visible_cluster, first_vertex, phase),
 		LAYOUT(3, Batch, parts, counts, first_vertex),
 		LAYOUT(3, PatternRange, first_triangle, first_vertex, counts),
 		LAYOUT(3, TableView, patterns, vertices, triangles),
 		LAYOUT(1, DomainTriangle, words),
 		LAYOUT(8, DisplacedBounds, low, high, direction_low, direction_high, reach_low, reach_high, cone_axis, cone_cutoff),
-		LAYOUT(7, RasterInputs, instances, clusters, visible_clusters, part_triangles, part_offsets, material_flags, table),
+		LAYOUT(7, RasterInputs, instances, clusters, visible_clusters, part_triangles, part_places, material_flags, table),
 		LAYOUT(5, MaterialRecord, base_color, emissive, metallic, roughness, color_texture),
 		LAYOUT(4, ShadingData, normals, color_uvs, colors, materials),
 		LAYOUT(5, IndexedDraw, index_count, instance_count, first_index, vertex_offset, first_instance),

@@ -1,29 +1,32 @@
-#include "tessellation/batch_parts.h"
-
 #include "pipeline/passes.h"
-#include "pipeline/uses.h"
-#include "plan/conditions.h"
+#include "pipeline/tessellation/batch_parts_args.h"
 
 namespace tessera
 {
 
 static constexpr Use kUses[] = {
-	{ "part_triangles", Access::ComputeRead }, { "patterns", Access::ComputeRead }, { "heads", Access::ComputeWrite },
-	{ "counts", Access::ComputeWrite },        { "batches", Access::ComputeWrite }, { "part_offsets", Access::ComputeWrite },
+	{ "view", Access::ComputeRead, &kPartsMayHide },
+	{ "surface", Access::ComputeRead, &kPartsMayHide },
+	{ "frame_history", Access::ComputeRead, &kPartsMayHide },
+	{ "depth_pyramid", Access::ComputeRead, &kPartsMayHide },
+	{ "instances", Access::ComputeRead, &kPartsMayHide },
+	{ "clusters", Access::ComputeRead, &kPartsMayHide },
+	{ "cluster_bounds", Access::ComputeRead, &kPartsMayHide },
+	{ "visible_clusters", Access::ComputeRead, &kPartsMayHide },
+	{ "positions", Access::ComputeRead, &kPartsMayHide },
+	{ "triangles", Access::ComputeRead, &kPartsMayHide },
+	{ "part_triangles", Access::ComputeRead },
+	{ "patterns", Access::ComputeRead },
+	{ "heads", Access::ComputeWrite },
+	{ "counts", Access::ComputeWrite },
+	{ "batches", Access::ComputeWrite },
+	{ "part_places", Access::ComputeWrite },
+	{ "window_seen", Access::ComputeWrite, &kPartsMayHide },
 };
 
 static void record(PassContext& pass)
 {
-	BatchPartsArgs args = {};
-	args.heads = pass.address("heads");
-	args.counts = pass.address("counts");
-	args.part_triangles = pass.address("part_triangles");
-	args.patterns = pass.address("patterns");
-	args.batches = pass.address("batches");
-	args.part_offsets = pass.address("part_offsets");
-	args.most_vertices = usesSoft(pass.input()) ? RASTER_BATCH_VERTICES : BATCH_MAX_VERTICES;
-	args.most_triangles = usesSoft(pass.input()) ? RASTER_BATCH_TRIANGLES : BATCH_MAX_TRIANGLES;
-	pass.dispatchLoop(args, pass.capacity("part_triangles"), BATCH_WINDOW);
+	pass.dispatchLoop(batchPartsArgs(pass), pass.capacity("part_triangles"), BATCH_WINDOW);
 }
 
 static constexpr const Condition* kNeeded[] = { &kTessellates };

@@ -7,6 +7,8 @@ namespace tessera
 {
 
 static constexpr Use kUses[] = {
+	{ "frame_history", Access::ComputeRead, &kOcclusionCulls },
+	{ "depth_pyramid", Access::ComputeRead, &kOcclusionCulls },
 	{ "visible_clusters", Access::ComputeRead },
 	{ "view", Access::ComputeRead },
 	{ "instances", Access::ComputeRead },

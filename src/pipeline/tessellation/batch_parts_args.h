@@ -1,0 +1,29 @@
+// Arguments of the two passes that batch parts: batch_parts and, for what it left out as hidden, retest_parts.
+#pragma once
+#include "pipeline/uses.h"
+#include "plan/conditions.h"
+#include "tessellation/batch_parts.h"
+
+namespace tessera
+{
+
+inline BatchPartsArgs batchPartsArgs(const PassContext& pass)
+{
+	BatchPartsArgs args = {};
+	args.heads = pass.address("heads");
+	args.counts = pass.address("counts");
+	args.part_triangles = pass.address("part_triangles");
+	args.patterns = pass.address("patterns");
+	args.batches = pass.address("batches");
+	args.part_places = pass.address("part_places");
+	args.window_seen = pass.address("window_seen");
+	args.instances = pass.address("instances");
+	args.clusters = pass.address("clusters");
+	args.cluster_bounds = pass.address("cluster_bounds");
+	args.visible_clusters = pass.address("visible_clusters");
+	args.most_vertices = usesSoft(pass.input()) ? RASTER_BATCH_VERTICES : BATCH_MAX_VERTICES;
+	args.most_triangles = usesSoft(pass.input()) ? RASTER_BATCH_TRIANGLES : BATCH_MAX_TRIANGLES;
+	return args;
+}
+
+}  // namespace tessera
