@@ -61,6 +61,8 @@ void addVerifyOptions(CLI::App& app, CommandLine& line)
 	app.add_option("--inject", line.inject, "break something on purpose: the check that guards it must fail")
 		->type_name("FAULT")
 		->check(CLI::IsMember({ "crack", "drop", "cull", "nan", "tie" }));
+	app.add_flag("--usual-way", line.usual_way,
+				 "also count the cracks that displacing each side by its own normals and texture coordinates would open");
 	app.add_option("--against", line.against, "another device, compared with the first")->type_name("NAME|N");
 }
 

@@ -24,8 +24,9 @@ struct CommandLine
 	std::vector<float> rates;     // of verify; empty: --rate
 	uint32_t random_cameras = 6;  // of verify
 	uint64_t seed = 1;
-	std::string inject;   // a fault's name; empty: none
-	std::string against;  // a second device; empty: none
+	std::string inject;      // a fault's name; empty: none
+	std::string against;     // a second device; empty: none
+	bool usual_way = false;  // of verify
 	bool base = false, print_plan = false, json = false;
 	AppOptions options;
 };

@@ -54,6 +54,7 @@ Result<verify::Request> requestFor(const CommandLine& line, const Subject& subje
 	request.rates = line.rates.empty() ? std::vector{ line.options.rate } : line.rates;
 	request.seed = line.seed;
 	request.fault = faultNamed(line.inject);
+	request.usual_way = line.usual_way;
 	return request;
 }
 

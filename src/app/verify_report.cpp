@@ -94,6 +94,13 @@ std::string verifyTable(const verify::Report& report, const Device& device, cons
 			"\nseams: {} points whose height another triangle owns; jump within the first row at most {:.3g} mesh units ({:.3g} px, {:.3g} of "
 			"the row's length), {:.3g} on average\n       largest: {}\n",
 			seams.points, seams.largest_mesh, seams.largest_px, seams.largest_over_row, seams.meanMesh(), describe(seams.place));
+	const verify::UsualWay& usual = report.usual_way;
+	if (usual.points > 0)
+		text += fmt::format("\nthe usual way, {} points on shared edges: {} cracks when each side displaces by its own normals and texture "
+							"coordinates (largest gap {:.3g} "
+							"mesh units), {} with float barycentrics too ({:.3g}); here {}\n",
+							usual.points, usual.own_sides, usual.own_sides_gap, usual.barycentrics, usual.barycentrics_gap,
+							report.checks.front().result.violations);
 	return text;
 }
 
@@ -115,6 +122,11 @@ ordered_json verifyJson(const verify::Report& report, const Device& device, cons
 	for (const NamedCheck& check : report.checks)
 		json["checks"][std::string(check.name)] = checkJson(check);
 	json["seams"] = seamsJson(report.seams);
+	const verify::UsualWay& usual = report.usual_way;
+	if (usual.points > 0)
+		json["usual_way"] = { { "points", usual.points },
+							  { "own_sides", { { "cracks", usual.own_sides }, { "largest_gap_mesh_units", usual.own_sides_gap } } },
+							  { "float_barycentrics", { { "cracks", usual.barycentrics }, { "largest_gap_mesh_units", usual.barycentrics_gap } } } };
 	json["frames"] = ordered_json::array();
 	for (const verify::FrameLine& frame : report.frames)
 		json["frames"].push_back({ { "camera", frame.camera },

@@ -3,6 +3,7 @@
 #include "base/log.h"
 #include "frame/lists.h"
 #include "scene/factor_rule.h"
+#include "verify/bounds_check.h"
 #include "verify/finite_check.h"
 #include "verify/holes_check.h"
 #include "verify/leak_check.h"
@@ -202,6 +203,7 @@ private:
 		const Screen screen(truth_, uncut.view);
 		add(kWatertight, checkWatertight(truth_, uncut.micro));
 		add(kNoHoles, checkHoles(truth_, uncut.micro));
+		add(kConservative, checkBounds(truth_, uncut.view, uncut.micro));
 		add(kFinite, checkFinite(truth_, uncut.view, screen, uncut.micro));
 		const uint32_t table_size = request_.table->max_edge_segments;
 		const FactorRule rule = factorRule(uncut.view, table_size, std::min(request_.uncut_options.max_split, table_size));
@@ -210,6 +212,8 @@ private:
 		sortMicro(expected);
 		add(kDeterministic, compareMicro(expected, uncut.micro, "the CPU's"));
 		report_.seams.merge(measureSeams(truth_, uncut.view, screen, uncut.micro));
+		if (request_.usual_way)
+			report_.usual_way.merge(measureUsualWay(truth_, uncut.view, uncut.micro));
 	}
 
 	// A fault in culling is made for what is seen first.

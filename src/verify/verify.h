@@ -4,6 +4,7 @@
 #include "verify/fault.h"
 #include "verify/frame_source.h"
 #include "verify/seam_jump.h"
+#include "verify/usual_way.h"
 
 namespace tessera::verify
 {
@@ -21,6 +22,7 @@ struct Request
 	std::vector<float> rates;
 	uint64_t seed = 1;
 	Fault fault = Fault::None;
+	bool usual_way = false;  // also measure what the usual way would crack
 };
 
 struct FrameLine
@@ -43,6 +45,7 @@ struct Report
 {
 	std::vector<NamedCheck> checks;
 	SeamJump seams;
+	UsualWay usual_way;
 	std::vector<FrameLine> frames;
 	std::string injected;  // where the fault is; empty: none
 	// The frame with most violations (the first, when there are none) with what is wrong marked (overlay.h).

@@ -179,7 +179,7 @@ void checkEdges(const HostScene& scene, std::vector<const Side*>& sides, CheckRe
 
 }  // namespace
 
-CheckResult checkWatertight(const HostScene& scene, std::span<const MicroTriangle> sorted)
+CheckResult checkWatertight(const HostScene& scene, std::span<const MicroTriangle> sorted, bool as_a_whole)
 {
 	const auto groups = baseTriangles(sorted);
 	const auto chunks = reference::inChunks<Chunk>(groups.size(), 64, [&](Chunk& chunk, size_t first, size_t end) {
@@ -197,7 +197,8 @@ CheckResult checkWatertight(const HostScene& scene, std::span<const MicroTriangl
 			sides.push_back(&side);
 	}
 	checkEdges(scene, sides, result, topology);
-	topology.check(scene, result);
+	if (as_a_whole)
+		topology.check(scene, result);
 	return result;
 }
 

@@ -10,7 +10,7 @@ namespace tessera::verify
 //   - a domain point of a base triangle has one position, whichever of its micro-triangles says it;
 //   - where the input is closed and manifold: the vector area of the output is zero within rounding, so its volume is the same about every
 //     origin, and the Euler characteristic is that of the input.
-// Sizes of violations are gaps in mesh units. On all threads; n log n.
-CheckResult checkWatertight(const reference::HostScene& scene, std::span<const MicroTriangle> sorted);
+// The last is left out unless `as_a_whole`. Sizes of violations are gaps in mesh units. On all threads; n log n.
+CheckResult checkWatertight(const reference::HostScene& scene, std::span<const MicroTriangle> sorted, bool as_a_whole = true);
 
 }  // namespace tessera::verify

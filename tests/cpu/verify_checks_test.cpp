@@ -1,6 +1,7 @@
 // The checks of verify on micro-triangles of the CPU reference: they hold for every test scene, and each fails on data broken by hand.
 #include "reference_test_scenes.h"
 
+#include "verify/bounds_check.h"
 #include "verify/cameras.h"
 #include "verify/conservative_check.h"
 #include "verify/fault.h"
@@ -9,6 +10,7 @@
 #include "verify/leak_check.h"
 #include "verify/overlay.h"
 #include "verify/seam_jump.h"
+#include "verify/usual_way.h"
 #include "verify/watertight_check.h"
 
 #include <gtest/gtest.h>
@@ -281,6 +283,29 @@ TEST(verifyChecks, otherIdentitiesAreViolationsAndTiesAreCounted)
 	EXPECT_EQ(comparePictures(picture, other, "again", 0.6).violations, 0u);
 	other.pixels[centre] = {};
 	EXPECT_EQ(comparePictures(picture, other, "again").violations, 1u);
+}
+
+TEST(verifyChecks, aVertexOutsideItsBoundsIsNotConservative)
+{
+	Drawn drawn(coarseSphereScene(), 4);
+	const CheckResult sound = checkBounds(drawn.scene->host, drawn.view, drawn.set);
+	EXPECT_EQ(sound.violations, 0u) << describe(sound.place);
+	EXPECT_GE(sound.largest.at("bound over reach of a cluster"), 1);
+	drawn.set[5].displaced[0] *= 100.0f;
+	EXPECT_GE(checkBounds(drawn.scene->host, drawn.view, drawn.set).violations, 1u);
+}
+
+TEST(verifyChecks, theUsualWayCracksWhereThisOneDoesNot)
+{
+	const Drawn cube(cubeScene(2), 6);
+	ASSERT_EQ(cube.watertight().violations, 0u);
+	const UsualWay usual = measureUsualWay(cube.scene->host, cube.view, cube.set);
+	EXPECT_GT(usual.own_sides, 0u);
+	EXPECT_GT(usual.own_sides_gap, 1e-3) << "hard edges come apart by about the displacement";
+	EXPECT_GE(usual.barycentrics, usual.own_sides);
+	// One plane without displacement: only barycentrics can crack it.
+	const Drawn flat(triangleScene({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }), 6);
+	EXPECT_EQ(measureUsualWay(flat.scene->host, flat.view, flat.set).own_sides, 0u);
 }
 
 TEST(verifyChecks, violationsAreMarkedInThePicture)
