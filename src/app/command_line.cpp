@@ -21,6 +21,7 @@ struct CommandDesc
 
 constexpr CommandDesc kCommands[] = {
 	{ Command::Render, "render", "draw one picture of SCENE" },
+	{ Command::Report, "report", "measure error against run time of SCENE at several rates; a page with plots and a recommendation" },
 	{ Command::Export, "export", "write the micro-triangles of SCENE as a mesh, .glb or .ply; all of them unless --cull is given" },
 	{ Command::Info, "info", "what the device offers, what SCENE needs, what is left out and why" },
 	{ Command::Verify, "verify", "check that SCENE is drawn watertight, without holes, whatever is culled, the same every time, and right" },
@@ -47,10 +48,6 @@ std::string sceneHelp()
 
 void addVerifyOptions(CLI::App& app, CommandLine& line)
 {
-	app.add_option("--rates", line.rates, "rates to verify at, pixels (default: --rate)")
-		->type_name("A,B,...")
-		->delimiter(',')
-		->check(CLI::Range(0.0f, 1e6f));
 	app.add_option("--cameras", line.random_cameras,
 				   "random cameras beside the chosen one and the scene's: far, close, inside, grazing, narrow, wide")
 		->type_name("N")
@@ -66,16 +63,27 @@ void addVerifyOptions(CLI::App& app, CommandLine& line)
 	app.add_option("--against", line.against, "another device, compared with the first")->type_name("NAME|N");
 }
 
+std::string outputHelp(Command command)
+{
+	switch (command)
+	{
+	case Command::Render:
+		return "picture (default tessera.png)";
+	case Command::Report:
+		return "folder to write (default report)";
+	case Command::Verify:
+		return "picture of the frame with most violations, marked red (.png)";
+	default:
+		return "file to write";
+	}
+}
+
 void addCommandOptions(CLI::App& app, CommandLine& line)
 {
 	const char* otherwise = line.command == Command::Info ? "default: none" : "default: the first built-in scene";
 	app.add_option("SCENE", line.scene, otherwise)->type_name("");
 	if (line.command != Command::Info)
-		app.add_option("-o,--output", line.output,
-					   line.command == Command::Render   ? "picture (default tessera.png)"
-					   : line.command == Command::Verify ? "picture of the frame with most violations, marked red (.png)"
-														 : "file to write")
-			->type_name("FILE");
+		app.add_option("-o,--output", line.output, outputHelp(line.command))->type_name(line.command == Command::Report ? "FOLDER" : "FILE");
 	if (line.command == Command::Render)
 		app.add_option("--stats", line.stats, "counts and times as JSON; - is standard output")->type_name("FILE|-");
 	if (line.command == Command::Export)

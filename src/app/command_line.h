@@ -9,6 +9,7 @@ enum class Command : uint8_t
 {
 	ShowText,  // --help, --version
 	Render,
+	Report,
 	Export,
 	Info,
 	Verify,
@@ -21,7 +22,6 @@ struct CommandLine
 	std::string scene;  // file or builtin:name; empty: none given
 	std::string output;
 	std::string stats;            // file, "-" = standard output, empty = none; of verify: its report
-	std::vector<float> rates;     // of verify; empty: --rate
 	uint32_t random_cameras = 6;  // of verify
 	uint64_t seed = 1;
 	std::string inject;      // a fault's name; empty: none

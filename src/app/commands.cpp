@@ -21,6 +21,8 @@ Status runCommand(const CommandLine& line)
 		return {};
 	case Command::Render:
 		return renderCommand(line);
+	case Command::Report:
+		return reportCommand(line);
 	case Command::Export:
 		return exportCommand(line);
 	case Command::Info:

@@ -8,6 +8,9 @@ namespace tessera
 // Draws --warmup and --frames frames; writes the picture of the last and its stats.
 Status renderCommand(const CommandLine& line);
 
+// Measures error and time of the scene at --rates x --rasters x --sizes; writes a folder with report.html and the data behind it.
+Status reportCommand(const CommandLine& line);
+
 // Writes the micro-triangles that a frame draws as .glb or .ply, or the scene as loaded (--base) as .glb.
 Status exportCommand(const CommandLine& line);
 

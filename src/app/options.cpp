@@ -1,5 +1,6 @@
 #include "app/options.h"
 
+#include "app/list_options.h"
 #include "app/option_text.h"
 #include "frame/lists.h"
 
@@ -194,6 +195,14 @@ const std::array kTable = {
 	OptionDesc{ "table", "FILE", "tessellation table; default: the built-in one", &AppOptions::table, 0, 0, Rebuild::Buffers },
 	OptionDesc{ "frames", "N", "frames to draw and time", &AppOptions::frames, 1, 1e6 },
 	OptionDesc{ "warmup", "N", "frames to draw before those", &AppOptions::warmup, 0, 1e6 },
+	OptionDesc{ "rates", "LIST", "rates that report tries (default: 16,8,4,2,1,0.5) and verify checks (default: that of --rate)", kRatesOption },
+	OptionDesc{ "rasters", "LIST", "report: raster paths to try; default: that of --raster", kRastersOption },
+	OptionDesc{ "sizes", "LIST", "report: pictures to try; default: that of --size", kSizesOption },
+	OptionDesc{ "reference-rate", "PIXELS", "report: rate of the picture that the others are compared with; default: half the finest of --rates",
+				&AppOptions::reference_rate, 1e-3, 1e6 },
+	OptionDesc{ "max-error-px", "PIXELS", "report: recommend the cheapest setting with an error of at most this", &AppOptions::max_error_px, 0, 1e6 },
+	OptionDesc{ "max-ms", "MS", "report: recommend the most exact setting that takes at most this", &AppOptions::max_ms, 0, 1e6 },
+	OptionDesc{ "resume", "", "report: go on with an interrupted one; runs that are there are not done again", &AppOptions::resume },
 	OptionDesc{ "device", "NAME|N", "part of a device's name, or its number; default: the fastest kind there is", &AppOptions::device, 0, 0,
 				Rebuild::Device },
 	OptionDesc{ "pipelines", "", "print what the driver compiled each compute pipeline to: registers, shared memory",

@@ -5,6 +5,7 @@
 #include "base/vec.h"
 #include "plan/render_options.h"
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -34,6 +35,13 @@ struct AppOptions : RenderOptions
 	Metric metric = Metric::Edge;
 	std::vector<std::string> displacements;
 	uint32_t frames = 1, warmup = 0;
+	// What a report tries (verify shares the rates), and what it is to recommend.
+	std::vector<double> rates;                   // empty: ratesOf (list_options.h) has the default
+	std::vector<Raster> rasters;                 // empty: `raster` alone
+	std::vector<std::array<uint32_t, 2>> sizes;  // empty: width_px x height_px alone
+	std::optional<double> reference_rate;        // of the picture that the others are compared with
+	std::optional<double> max_error_px, max_ms;
+	bool resume = false;
 	std::string device;
 	bool pipeline_statistics = false;
 	bool validate = false, strict = false, quiet = false;

@@ -51,7 +51,9 @@ Result<verify::Request> requestFor(const CommandLine& line, const Subject& subje
 	request.uncut_options = uncut;
 	request.paths = line.options.raster == Raster::Auto ? verify::rasterPaths(device) : std::vector{ line.options.raster };
 	request.cameras = camerasOf(line, subject);
-	request.rates = line.rates.empty() ? std::vector{ line.options.rate } : line.rates;
+	request.rates.assign(line.options.rates.begin(), line.options.rates.end());
+	if (request.rates.empty())
+		request.rates = { line.options.rate };
 	request.seed = line.seed;
 	request.fault = faultNamed(line.inject);
 	request.usual_way = line.usual_way;

@@ -5,7 +5,6 @@
 #include "scene/factor_rule.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace tessera::report
 {
@@ -112,23 +111,22 @@ uint64_t MicroScene::triangleCount() const
 	return count;
 }
 
-Result<MicroScene> tessellate(const HostScene& scene, const View& view, uint32_t max_split)
+Result<MicroScene> tessellate(const HostScene& scene, const View& view, uint32_t max_split, uint64_t most_triangles)
 {
 	MicroScene result;
 	const FactorRule rule = factorRule(view, scene.tableSize(), std::min(max_split, scene.tableSize()));
 	result.pieces = reference::classify(scene, view, rule, reference::allClusters(scene));
+	if (result.pieces.microTriangles() > most_triangles)
+		return badInput("the surface is made of {} micro-triangles, more than the {} that are measured; a larger rate has fewer",
+						result.pieces.microTriangles(), most_triangles);
 	result.pieces.splits = {};  // only their counts are of use here
 	std::vector<InstancePieces> pieces(scene.instances().size());
 	for (const auto& group : reference::groupsOf(result.pieces.parts))
 		pieces[group[0].cluster.instance].groups.push_back(group);
 	for (const ClusterRef ref : result.pieces.full_clusters)
 		pieces[ref.instance].full_clusters.push_back(ref);
-	for (size_t i = 0; i < pieces.size(); ++i)
-	{
-		result.instances.push_back(meshOf(scene, view, pieces[i]));
-		if (result.instances.back().positions.size() > std::numeric_limits<uint32_t>::max())
-			return badInput("instance {}: more than 2^32 - 1 micro-vertices; a larger --rate is needed", i);
-	}
+	for (const InstancePieces& instance : pieces)
+		result.instances.push_back(meshOf(scene, view, instance));
 	return result;
 }
 

@@ -33,7 +33,7 @@ struct MicroScene
 
 // Classifies and evaluates every cluster of every instance on the CPU: the very positions that the device computes (the tests
 // tessellation.* and raster.* hold that). On all threads; about 50 bytes per micro-triangle.
-// Errors: BadInput (more than 2^32 - 1 vertices in one instance).
-Result<MicroScene> tessellate(const reference::HostScene& scene, const View& view, uint32_t max_split);
+// Errors: BadInput (more micro-triangles than `most_triangles`, at most 2^31).
+Result<MicroScene> tessellate(const reference::HostScene& scene, const View& view, uint32_t max_split, uint64_t most_triangles = uint64_t(1) << 31);
 
 }  // namespace tessera::report

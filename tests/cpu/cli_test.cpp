@@ -29,7 +29,7 @@ void expectRefused(const std::string& arguments, int exit_code, const std::strin
 
 TEST(program, wrongUsageEndsWithTwo)
 {
-	expectRefused("draw", 2, "render, export, info");
+	expectRefused("draw", 2, "render, report, export, info");
 	expectRefused("render --rate fast", 2, "--rate fast");
 	expectRefused("render --bogus", 2, "--bogus");
 	expectRefused("render --raster voxels", 2, "mesh, indexed");

@@ -81,6 +81,13 @@ const std::vector<std::pair<std::string, std::string>> kSamples = {
 	{ "table", "own.table" },
 	{ "frames", "64" },
 	{ "warmup", "16" },
+	{ "rates", "7,3.5,0" },
+	{ "rasters", "soft,indexed" },
+	{ "sizes", "320x240,64x48" },
+	{ "reference-rate", "0.125" },
+	{ "max-error-px", "0.5" },
+	{ "max-ms", "2.25" },
+	{ "resume", "" },
 	{ "device", "llvmpipe" },
 	{ "pipelines", "" },
 	{ "validate", "" },
@@ -304,8 +311,8 @@ TEST(commandLine, commandsTakeTheirOwnOptions)
 
 TEST(commandLine, wrongUsageNamesTheArgument)
 {
-	EXPECT_NE(refusal({}).find("render, export, info"), std::string::npos);
-	EXPECT_NE(refusal({ "draw" }).find("render, export, info"), std::string::npos);
+	EXPECT_NE(refusal({}).find("render, report, export, info"), std::string::npos);
+	EXPECT_NE(refusal({ "draw" }).find("render, report, export, info"), std::string::npos);
 	EXPECT_EQ(refusal({ "draw" }).rfind("draw: ", 0), 0u);
 	EXPECT_NE(refusal({ "render", "--bogus", "1" }).find("--bogus"), std::string::npos);
 	EXPECT_NE(refusal({ "render", "--rate" }).find("--rate"), std::string::npos);

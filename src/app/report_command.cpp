@@ -1,0 +1,168 @@
+#include "app/commands.h"
+#include "app/list_options.h"
+#include "app/option_text.h"
+#include "app/report_sweep.h"
+#include "app/scene_load.h"
+#include "app/scene_plan.h"
+#include "app/stats_json.h"
+#include "base/log.h"
+#include "frame/renderer.h"
+
+#include <algorithm>
+
+namespace tessera
+{
+
+namespace
+{
+
+constexpr std::string_view kFreeOptions[] = { "size",         "rate",   "raster", "rates", "rasters", "sizes",
+											  "max_error_px", "max_ms", "resume", "quiet", "strict",  "view" };
+
+Status checkOptions(const AppOptions& options)
+{
+	if (options.view != ViewMode::Shaded)
+		return fail(ExitCode::Usage, "report: pictures are compared as --view shaded alone");
+	const auto isAutomatic = [](Raster raster) {
+		return raster == Raster::Auto;
+	};
+	if (options.rasters.size() > 1 && std::any_of(options.rasters.begin(), options.rasters.end(), isAutomatic))
+		return fail(ExitCode::Usage, "--rasters: auto is one of the others; it can only stand alone");
+	return {};
+}
+
+// What all runs of a log must have in common: a change of anything else adds runs.
+nlohmann::json factsOf(const CommandLine& line, const BuiltScene& scene, const Device& device)
+{
+	nlohmann::json options = optionsJson(line.options);
+	for (const std::string_view name : kFreeOptions)
+		options.erase(std::string(name));
+	nlohmann::json facts;
+	facts["scene"] = sceneJson(scene);
+	facts["device"] = { { "name", device.name }, { "driver", device.driver }, { "api", device.api } };
+	facts["options"] = options;
+	facts["version"] = TESSERA_VERSION;
+	return facts;
+}
+
+// Words as a shell takes them.
+std::string quoted(const std::string& word)
+{
+	constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+.,:/@%";
+	if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos)
+		return word;
+	std::string text = "'";
+	for (const char c : word)
+		text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+	return text + "'";
+}
+
+// What was given. --resume is not needed to do it again.
+std::string commandOf(const CommandLine& line, const BuiltScene& scene)
+{
+	std::string text = "tessera report " + quoted(scene.path);
+	for (const OptionDesc& option : optionTable())
+	{
+		const std::vector<std::string> values = printOption(option, line.options);
+		if (option.name == "resume" || option.name == "quiet" || values == printOption(option, AppOptions()))
+			continue;
+		for (const std::string& value : values)
+			text += fmt::format(" --{}{}{}", option.name, value.empty() ? "" : " ", value.empty() ? "" : quoted(value));
+	}
+	return text + " -o " + quoted(line.output.empty() ? "report" : line.output);
+}
+
+Status addLeftOut(const BuiltScene& scene, const AppOptions& options, const TessellationTable& table, const Device& device, report::ReportData& data)
+{
+	AppOptions first = optionsFor(options, sizesOf(options)[0]);
+	first.rate = static_cast<float>(ratesOf(options)[0]);
+	first.raster = rastersOf(options)[0];
+	TRY_ASSIGN(const Camera camera, chooseCamera(scene, first));
+	TRY_ASSIGN(const ScenePlan planned, planScene(scene, camera, first, traitsOf(device), table));
+	for (const DroppedPass& pass : planned.plan.dropped)
+		data.left_out.push_back({ "pass", std::string(pass.name), pass.reason, 0 });
+	for (const Feature& feature : planned.plan.features)
+		if (!feature.on)
+			data.left_out.push_back({ "shader feature", std::string(feature.name), std::string(feature.reason), 0 });
+	for (const PlannedResource& resource : planned.plan.resources)
+		if (!resource.kept)
+			data.left_out.push_back({ std::string(resource.kind), std::string(resource.name), resource.reason, resource.bytes });
+	data.bytes_kept = planned.bytesKept();
+	data.bytes_saved = planned.bytesSaved();
+	return {};
+}
+
+std::vector<std::pair<std::string, std::string>> sceneFacts(const BuiltScene& scene, const AppOptions& options)
+{
+	std::vector<std::pair<std::string, std::string>> facts = {
+		{ "base triangles", fmt::format("{} ({} over {})", scene.traits.base_triangles, scene.traits.instanced_triangles,
+										counted(scene.instances.size(), "instance")) },
+		{ "height maps", fmt::format("{}", scene.height_maps.size()) },
+		{ "diagonal of the bounds", fmt::format("{:.6g}", 2 * boundingRadius(scene)) },
+	};
+	for (const auto& size : sizesOf(options))
+		if (const Result<Camera> camera = chooseCamera(scene, optionsFor(options, size)))
+			facts.emplace_back(fmt::format("camera, {}x{}", size[0], size[1]),
+							   fmt::format("eye {}, target {}, {}", printVector(camera->eye), printVector(camera->target),
+										   camera->orthographic ? fmt::format("orthographic, {} high", camera->height_world)
+																: fmt::format("{:.4g} degrees", glm::degrees(camera->fov_y_rad))));
+	return facts;
+}
+
+Result<report::ReportData> dataOf(const CommandLine& line, const BuiltScene& scene, const TessellationTable& table, const Device& device,
+								  SweepResult&& sweep, nlohmann::json facts)
+{
+	report::ReportData data;
+	data.scene = scene.path;
+	data.command = commandOf(line, scene);
+	data.version = TESSERA_VERSION;
+	data.device = device.name;
+	data.driver = device.driver;
+	data.api = device.api;
+	data.facts = std::move(facts);
+	data.scene_facts = sceneFacts(scene, line.options);
+	data.runs = std::move(sweep.runs);
+	data.closed = std::move(sweep.closed);
+	data.limits = { line.options.max_error_px, line.options.max_ms };
+	TRY(addLeftOut(scene, line.options, table, device, data));
+	return data;
+}
+
+Status measureAndWrite(const CommandLine& line, const BuiltScene& scene, const TessellationTable& table, Device& device)
+{
+	const std::filesystem::path folder = line.output.empty() ? "report" : line.output;
+	const nlohmann::json facts = factsOf(line, scene, device);
+	const std::filesystem::path log_path = folder / "runs.jsonl";
+	TRY_ASSIGN(report::RunLog log, line.options.resume ? report::RunLog::resume(log_path, facts) : report::RunLog::start(log_path, facts));
+	TRY_ASSIGN(SweepResult sweep, runSweep({ line.options, scene, table, device, folder }, log));
+	const bool drew = std::any_of(sweep.runs.begin(), sweep.runs.end(), [](const report::Run& run) { return run.failure.empty(); });
+	if (!drew)
+		return fail(sweep.runs.empty() ? ExitCode::DeviceCannot : ExitCode::BadInput, "report: nothing could be drawn: {}",
+					sweep.runs.empty() ? sweep.closed.begin()->second : sweep.runs[0].failure);
+	TRY_ASSIGN(const report::ReportData data, dataOf(line, scene, table, device, std::move(sweep), facts));
+	TRY(report::writeReport(folder, data));
+	for (const report::Advice& advice : report::recommend(data.runs, data.limits))
+		logInfo("{}", advice.text);
+	logInfo("wrote {}", (folder / "report.html").string());
+	return {};
+}
+
+}  // namespace
+
+Status reportCommand(const CommandLine& line)
+{
+	TRY(checkOptions(line.options));
+	TRY_ASSIGN(const TessellationTable table, loadChosenTable(line.options));
+	TRY_ASSIGN(const BuiltScene scene, loadScene(line.scene, line.options));
+	TRY(chooseCamera(scene, line.options));
+	TRY_ASSIGN(const std::unique_ptr<Device> device, Device::create({ .name = line.options.device, .validate = line.options.validate }));
+	logInfo("device {}, driver {}", device->name, device->driver);
+	if (device->limits.timestamp_ns <= 0)
+		return fail(ExitCode::DeviceCannot, "{}: has no timestamps, GPU times cannot be measured", device->name);
+	TRY(measureAndWrite(line, scene, table, *device));
+	if (const uint32_t count = device->validationMessages())
+		return fail(ExitCode::CheckFailed, "--validate: the validation layer had {}", counted(count, "message"));
+	return {};
+}
+
+}  // namespace tessera

@@ -1,0 +1,129 @@
+#include "report/run.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera::report
+{
+
+using nlohmann::json;
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Figures, max, rms, p99)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TimeFigures, median, min, max, lower_quartile, upper_quartile)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Setting, rate, raster, metric, width, height)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PassFigures, name, gpu_ms)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunCounts, micro_triangles, part_triangles, split_triangles, full_clusters, visible_clusters, covered_pixels)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunBytes, lists, geometry, textures, images)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RegionError, to_tessellated_mesh, to_reference_mesh, mesh, relative, to_tessellated_px, to_reference_px, px,
+								   normal_deg, samples, change, converged)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Numerics, vertices, not_finite, worst_base_ulp, worst_displaced_ulp, worst_share_of_bound, shared_edges,
+								   differing_edges, edge_points, zero_area_triangles, first_problem)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SurfaceErrors, whole, visible, numerics, micro_triangles, reference_mesh_triangles)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReferencePicture, rate_wanted, rate_granted, micro_triangles, picture)
+
+namespace
+{
+
+template <typename T>
+void readOptional(const json& from, std::optional<T>& value)
+{
+	value = from.is_null() ? std::nullopt : std::optional(from.get<T>());
+}
+
+template <typename T>
+json optionalJson(const std::optional<T>& value)
+{
+	return value ? json(*value) : json();
+}
+
+}  // namespace
+
+static void to_json(json& to, const ImageError& error)
+{
+	to = { { "psnr_db", optionalJson(error.psnr_db) },       { "ssim", error.ssim },
+		   { "ms_ssim", optionalJson(error.ms_ssim) },       { "differing_pixels", error.differing_pixels },
+		   { "silhouette_pixels", error.silhouette_pixels }, { "covered_pixels", error.covered_pixels } };
+}
+
+static void from_json(const json& from, ImageError& error)
+{
+	readOptional(from.at("psnr_db"), error.psnr_db);
+	from.at("ssim").get_to(error.ssim);
+	readOptional(from.at("ms_ssim"), error.ms_ssim);
+	from.at("differing_pixels").get_to(error.differing_pixels);
+	from.at("silhouette_pixels").get_to(error.silhouette_pixels);
+	from.at("covered_pixels").get_to(error.covered_pixels);
+}
+
+TimeFigures timeFigures(std::vector<double> gpu_ms)
+{
+	if (gpu_ms.empty())
+		return {};
+	std::sort(gpu_ms.begin(), gpu_ms.end());
+	// Between the two nearest values, as the median of an even count is.
+	const auto quantile = [&](double share) {
+		const double place = share * double(gpu_ms.size() - 1);
+		const auto below = static_cast<size_t>(place);
+		const size_t above = std::min(below + 1, gpu_ms.size() - 1);
+		return gpu_ms[below] + (gpu_ms[above] - gpu_ms[below]) * (place - double(below));
+	};
+	return { quantile(0.5), gpu_ms.front(), gpu_ms.back(), quantile(0.25), quantile(0.75) };
+}
+
+std::string Setting::label() const
+{
+	return fmt::format("rate {}, {}, {}x{}", rate, raster, width, height);
+}
+
+json runJson(const Run& run)
+{
+	json result = { { "setting", run.setting },
+					{ "failure", run.failure },
+					{ "rate_granted", run.rate_granted },
+					{ "every_factor_one", run.every_factor_one },
+					{ "rounds", run.rounds },
+					{ "frames", run.frames },
+					{ "warmup", run.warmup },
+					{ "gpu_ms", run.gpu_ms },
+					{ "passes", run.passes },
+					{ "counts", run.counts },
+					{ "bytes", run.bytes },
+					{ "surface", optionalJson(run.surface) },
+					{ "image", optionalJson(run.image) },
+					{ "reference", run.reference },
+					{ "picture", run.picture },
+					{ "heat", run.heat } };
+	result["bytes"]["total"] = run.bytes.total();
+	return result;
+}
+
+Result<Run> runFromJson(const json& from, const std::string& where)
+{
+	try
+	{
+		Run run;
+		from.at("setting").get_to(run.setting);
+		from.at("failure").get_to(run.failure);
+		from.at("rate_granted").get_to(run.rate_granted);
+		from.at("every_factor_one").get_to(run.every_factor_one);
+		from.at("rounds").get_to(run.rounds);
+		from.at("frames").get_to(run.frames);
+		from.at("warmup").get_to(run.warmup);
+		from.at("gpu_ms").get_to(run.gpu_ms);
+		from.at("passes").get_to(run.passes);
+		from.at("counts").get_to(run.counts);
+		from.at("bytes").get_to(run.bytes);
+		readOptional(from.at("surface"), run.surface);
+		readOptional(from.at("image"), run.image);
+		from.at("reference").get_to(run.reference);
+		from.at("picture").get_to(run.picture);
+		from.at("heat").get_to(run.heat);
+		return run;
+	}
+	catch (const json::exception& error)
+	{
+		return badInput("{}: not a run of a report: {}", where, error.what());
+	}
+}
+
+}  // namespace tessera::report

@@ -1,0 +1,102 @@
+// `tessera report` as a user runs it: files, figures that hang together, and going on after an interruption.
+#include "base/file.h"
+#include "cpu/program_run.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace tessera::test
+{
+
+namespace
+{
+
+using nlohmann::json;
+
+class reportCommand : public testing::Test
+{
+protected:
+	void SetUp() override
+	{
+		const ProgramRun run = runTessera("info");
+		if (run.exit_code == 4)
+			GTEST_SKIP() << run.errors;
+	}
+};
+
+constexpr const char* kArguments = "report builtin:quad --size 96x64 --frames 3 --warmup 1 -o ";
+
+std::string textOf(const std::string& file)
+{
+	const auto bytes = readFile(scratchFolder() / file);
+	EXPECT_TRUE(bytes) << file;
+	return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : "";
+}
+
+}  // namespace
+
+TEST_F(reportCommand, finerRatesHaveSmallerErrorsAndEveryFigureIsThere)
+{
+	const ProgramRun run =
+		runTessera(std::string(kArguments) + "figures --rasters soft,indexed --rates 16,2 --max-error-px 100 --max-ms 1e6 --quiet");
+	ASSERT_EQ(run.exit_code, 0) << run.errors;
+	const json report = json::parse(textOf("figures/report.json"), nullptr, false);
+	ASSERT_TRUE(report.is_object());
+	ASSERT_GE(report["runs"].size(), 2u);
+	EXPECT_EQ(report["advice"].size(), 2u);
+	EXPECT_FALSE(report["left_out"].empty());
+	double last = 1e30;
+	for (const json& one : report["runs"])
+	{
+		EXPECT_EQ(one["failure"], "");
+		EXPECT_EQ(one["frames"], 3);
+		EXPECT_GT(one["gpu_ms"]["min"], 0);
+		EXPECT_FALSE(one["passes"].empty());
+		EXPECT_GT(one["counts"]["micro_triangles"], 0);
+		// Nothing of the quad lies outside the picture: what the device drew is what was measured.
+		EXPECT_EQ(one["surface"]["micro_triangles"], one["counts"]["micro_triangles"]);
+		EXPECT_EQ(one["surface"]["numerics"]["not_finite"], 0);
+		EXPECT_EQ(one["surface"]["numerics"]["differing_edges"], 0);
+		EXPECT_GT(one["surface"]["visible"]["samples"], 1000);
+		EXPECT_GT(one["image"]["ssim"], 0.3);
+		if (one["setting"]["raster"] != "soft")
+			continue;
+		EXPECT_LT(one["surface"]["whole"]["px"]["rms"], last) << one["setting"];
+		last = one["surface"]["whole"]["px"]["rms"];
+	}
+	for (const char* file : { "report.html", "report.csv", "runs.jsonl", "plots/error_time_seen_p99.svg", "pictures/rate2_soft_96x64.png" })
+		EXPECT_TRUE(std::filesystem::exists(scratchFolder() / "figures" / file)) << file;
+}
+
+TEST_F(reportCommand, goesOnWhereItWasInterrupted)
+{
+	const std::string arguments = std::string(kArguments) + "resumed --raster soft --rates 16,8";
+	ASSERT_EQ(runTessera(arguments + " --quiet").exit_code, 0);
+	const std::string whole = textOf("resumed/runs.jsonl");
+	const auto lines = std::count(whole.begin(), whole.end(), '\n');
+	// Cut within the last line: that run alone is done again.
+	ASSERT_TRUE(writeFile(scratchFolder() / "resumed/runs.jsonl", std::string_view(whole).substr(0, whole.size() - 40)));
+	const ProgramRun again = runTessera(arguments + " --resume");
+	ASSERT_EQ(again.exit_code, 0) << again.errors;
+	const std::string resumed = textOf("resumed/runs.jsonl");
+	EXPECT_EQ(std::count(resumed.begin(), resumed.end(), '\n'), lines);
+	const size_t last_line = whole.rfind('\n', whole.size() - 2);
+	EXPECT_EQ(resumed.substr(0, last_line), whole.substr(0, last_line));
+	// Other facts are refused, and nothing is lost.
+	const ProgramRun other = runTessera(std::string(kArguments) + "resumed --raster soft --rates 16,8 --resume --displacement-scale 2 --quiet");
+	EXPECT_EQ(other.exit_code, 3);
+	EXPECT_NE(other.errors.find("displacement_scale"), std::string::npos) << other.errors;
+	EXPECT_EQ(textOf("resumed/runs.jsonl"), resumed);
+}
+
+TEST_F(reportCommand, wrongUsageIsRefusedBeforeAnythingIsWritten)
+{
+	EXPECT_EQ(runTessera(std::string(kArguments) + "none --rates 4,fast --quiet").exit_code, 2);
+	EXPECT_EQ(runTessera(std::string(kArguments) + "none --view wireframe --quiet").exit_code, 2);
+	EXPECT_EQ(runTessera("report builtin:quad --rasters auto,soft -o none --quiet").exit_code, 2);
+	EXPECT_FALSE(std::filesystem::exists(scratchFolder() / "none"));
+}
+
+}  // namespace tessera::test
