@@ -44,17 +44,17 @@ Figures scaled(const Figures& figures, double factor)
 namespace
 {
 
-double changeOf(double a, double b)
+double changeOf(double a, double b, double least)
 {
-	const double larger = std::max(std::abs(a), std::abs(b));
+	const double larger = std::max({ std::abs(a), std::abs(b), least });
 	return larger > 0 ? std::abs(a - b) / larger : 0;
 }
 
 }  // namespace
 
-double relativeChange(const Figures& a, const Figures& b)
+double relativeChange(const Figures& a, const Figures& b, double least)
 {
-	return std::max({ changeOf(a.max, b.max), changeOf(a.rms, b.rms), changeOf(a.p99, b.p99) });
+	return std::max({ changeOf(a.max, b.max, least), changeOf(a.rms, b.rms, least), changeOf(a.p99, b.p99, least) });
 }
 
 }  // namespace tessera::report

@@ -26,7 +26,7 @@ Figures figuresOf(std::span<Weighted> values);
 Figures largerOf(const Figures& a, const Figures& b);
 Figures scaled(const Figures& figures, double factor);
 
-// The largest relative difference of any figure, of the larger of the two: 0..1.
-double relativeChange(const Figures& a, const Figures& b);
+// The largest relative difference of any figure, of the larger of the two (or of `least`, below which differences hardly count): 0..1.
+double relativeChange(const Figures& a, const Figures& b, double least = 0);
 
 }  // namespace tessera::report

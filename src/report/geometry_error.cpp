@@ -12,9 +12,12 @@ namespace tessera::report
 namespace
 {
 
-constexpr uint64_t kChunk = 1024;     // samples per piece of parallel work
-constexpr size_t kHills = 32;         // samples from which each largest error is searched for
-constexpr double kFirstStride = 0.2;  // of a micro-triangle's weights
+constexpr uint64_t kChunk = 1024;  // samples per piece of parallel work
+constexpr size_t kHills = 32;      // samples from which each largest error is searched for
+// Below these an error is what floats leave.
+constexpr double kLeastPx = 1e-3;
+constexpr double kLeastRelative = 1e-7;  // of the diagonal
+constexpr double kFirstStride = 0.2;     // of a micro-triangle's weights
 
 // Low-discrepancy points of the unit square and cube. Source: Roberts, The Unreasonable Effectiveness of Quasirandom Sequences.
 double fraction(double x)
@@ -158,7 +161,7 @@ RegionError untilSteady(const SurfacePair& surfaces, const Spots& spots, bool by
 		const std::vector<Sample> more = measureSpots(surfaces, spots, asked, 2 * asked, progress);
 		samples.insert(samples.end(), more.begin(), more.end());
 		RegionError finer = regionError(surfaces, samples, by_area, diagonal);
-		finer.change = std::max(relativeChange(error.mesh, finer.mesh), relativeChange(error.px, finer.px));
+		finer.change = std::max(relativeChange(error.relative, finer.relative, kLeastRelative), relativeChange(error.px, finer.px, kLeastPx));
 		finer.converged = finer.change <= limits.change;
 		error = finer;
 	}

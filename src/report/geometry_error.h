@@ -27,9 +27,9 @@ struct SamplingLimits
 	double change = 0.01;
 };
 
-// Doubles the samples until no figure changes by more than limits.change, or limits.most is reached. The largest error is searched for
-// from the largest samples uphill within their micro-triangles. Same input, same result. On all threads.
-// Each sample takes about 10 us.
+// Doubles the samples until no figure (relative to the diagonal and in pixels) changes by more than limits.change, or limits.most is reached. The
+// largest error is searched for from the largest samples uphill within their micro-triangles. Same input, same result. On all threads. Each sample
+// takes about 10 us.
 RegionError wholeSurfaceError(const SurfacePair& surfaces, double diagonal_world, const SamplingLimits& limits, Progress& progress);
 RegionError visibleError(const SurfacePair& surfaces, double diagonal_world, const SamplingLimits& limits, Progress& progress);
 

@@ -153,10 +153,10 @@ std::string samplingText(const ReportData& data)
 					unsteady += fmt::format("{}{} ({}: {:.1f} %)", unsteady.empty() ? "" : "; ", escaped(run.setting.label()),
 											region == &run.surface->visible ? "seen" : "whole", region->change * 100);
 			}
-	std::string text =
-		fmt::format("Samples were doubled until no figure (largest, root mean square, 99th percentile; mesh units and pixels) changed by more "
-					"than 1 %: {} to {} samples; the largest change that was left is {:.2f} %.",
-					least, most, change * 100);
+	std::string text = fmt::format(
+		"Samples were doubled until no figure (largest, root mean square, 99th percentile; relative to the diagonal and in pixels) changed by more "
+		"than 1 %: {} to {} samples; the largest change that was left is {:.2f} %.",
+		least, most, change * 100);
 	if (!unsteady.empty())
 		text += fmt::format(" Not reached with the most samples that are taken: {}.", unsteady);
 	return text;

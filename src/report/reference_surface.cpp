@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tessera::report
 {
@@ -120,8 +121,30 @@ ReferenceSurface::Coarse ReferenceSurface::coarseOf(const MeshRecord& mesh, doub
 					add({ uvec2(row, column + 1), uvec2(row + 1, column + 1), uvec2(row + 1, column) });
 			}
 	});
+	coarse.slack = 3 * meanDeviation(coarse, positions, corners);
 	coarse.set.emplace_back(positions, corners);
 	return coarse;
+}
+
+// Root mean square of how far the middles of the triangles lie from the surface there.
+double ReferenceSurface::meanDeviation(const Coarse& coarse, const std::vector<vec3>& positions, const std::vector<uvec3>& corners) const
+{
+	constexpr size_t kChunk = 4096;
+	std::vector<double> chunks((corners.size() + kChunk - 1) / kChunk);
+	parallelFor(chunks.size(), [&](size_t chunk) {
+		for (size_t t = chunk * kChunk; t < std::min(corners.size(), (chunk + 1) * kChunk); ++t)
+		{
+			const dvec3 middle = (dvec3(positions[corners[t].x]) + dvec3(positions[corners[t].y]) + dvec3(positions[corners[t].z])) / 3.0;
+			const auto& w = coarse.weights[t];
+			const dvec3 there = point({ coarse.bases[coarse.base_index[t]], (dvec2(w[0]) + dvec2(w[1]) + dvec2(w[2])) / 3.0 });
+			const double squared = glm::dot(there - middle, there - middle);
+			chunks[chunk] += std::isfinite(squared) ? squared : 0;
+		}
+	});
+	double sum = 0;
+	for (const double chunk : chunks)
+		sum += chunk;
+	return std::sqrt(sum / double(corners.size()));
 }
 
 uint64_t ReferenceSurface::triangleCount() const
@@ -187,25 +210,19 @@ double ReferenceSurface::descend(dvec3 q, SurfaceSpot& spot) const
 
 double ReferenceSurface::distance(uint32_t mesh, dvec3 q, const SurfaceSpot& start) const
 {
-	SurfaceSpot spot = start;
-	const double trivial = glm::length(point(start) - q);
-	double best = descend(q, spot);
 	const Coarse& coarse = coarse_[mesh];
-	if (coarse.set.empty())
-		return best;
-	for (const NearestTriangle& near : coarse.set[0].nearestOfGroups(q, std::min(best, trivial), coarse.base_index))
-	{
-		const auto& w = coarse.weights[near.triangle];
-		const dvec2 weights = dvec2(w[0]) * near.weights.x + dvec2(w[1]) * near.weights.y + dvec2(w[2]) * (1 - near.weights.x - near.weights.y);
-		const BaseRef base = coarse.bases[coarse.base_index[near.triangle]];
-		// Where the first search ended, to half a triangle of the coarse mesh.
-		const bool known = base.cluster == spot.base.cluster && base.triangle == spot.base.triangle &&
-						   glm::length(weights - spot.weights) < 0.5 * glm::length(dvec2(w[0] - w[1]));
-		SurfaceSpot other = { base, clamped(weights) };
-		if (!known)
-			best = std::min(best, descend(q, other));
-	}
-	return best;
+	double best = std::numeric_limits<double>::infinity();
+	if (!coarse.set.empty())
+		for (const NearestTriangle& near : coarse.set[0].nearestOfGroups(q, coarse.slack, coarse.base_index))
+		{
+			const auto& w = coarse.weights[near.triangle];
+			const dvec2 weights = dvec2(w[0]) * near.weights.x + dvec2(w[1]) * near.weights.y + dvec2(w[2]) * (1 - near.weights.x - near.weights.y);
+			SurfaceSpot spot = { coarse.bases[coarse.base_index[near.triangle]], clamped(weights) };
+			best = std::min(best, descend(q, spot));
+		}
+	// The coarse mesh may miss what lies between its points.
+	SurfaceSpot spot = start;
+	return glm::length(point(start) - q) < best ? descend(q, spot) : best;
 }
 
 }  // namespace tessera::report

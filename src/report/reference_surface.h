@@ -49,9 +49,11 @@ private:
 		std::vector<uint32_t> base_index;          // per triangle
 		std::vector<std::array<vec2, 3>> weights;  // per triangle, of its corners
 		std::vector<TriangleSet> set;              // one, or none for a mesh without triangles
+		double slack = 0;                          // mesh units: how far it is from the surface, three times the mean
 	};
 
 	Coarse coarseOf(const MeshRecord& mesh, double cuts_per_texel) const;
+	double meanDeviation(const Coarse& coarse, const std::vector<vec3>& positions, const std::vector<uvec3>& corners) const;
 	double texelArea(BaseRef base) const;
 	double descend(dvec3 q, SurfaceSpot& spot) const;
 	BaseTriangle baseTriangle(BaseRef base) const { return scene_.base({ 0, base.cluster }, base.triangle); }
