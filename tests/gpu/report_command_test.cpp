@@ -72,7 +72,7 @@ TEST_F(reportCommand, finerRatesHaveSmallerErrorsAndEveryFigureIsThere)
 
 TEST_F(reportCommand, goesOnWhereItWasInterrupted)
 {
-	const std::string arguments = std::string(kArguments) + "resumed --raster soft --rates 16,8";
+	const std::string arguments = std::string(kArguments) + "resumed --raster soft --rates 40,16";
 	ASSERT_EQ(runTessera(arguments + " --quiet").exit_code, 0);
 	const std::string whole = textOf("resumed/runs.jsonl");
 	const auto lines = std::count(whole.begin(), whole.end(), '\n');
@@ -85,7 +85,7 @@ TEST_F(reportCommand, goesOnWhereItWasInterrupted)
 	const size_t last_line = whole.rfind('\n', whole.size() - 2);
 	EXPECT_EQ(resumed.substr(0, last_line), whole.substr(0, last_line));
 	// Other facts are refused, and nothing is lost.
-	const ProgramRun other = runTessera(std::string(kArguments) + "resumed --raster soft --rates 16,8 --resume --displacement-scale 2 --quiet");
+	const ProgramRun other = runTessera(std::string(kArguments) + "resumed --raster soft --rates 40,16 --resume --displacement-scale 2 --quiet");
 	EXPECT_EQ(other.exit_code, 3);
 	EXPECT_NE(other.errors.find("displacement_scale"), std::string::npos) << other.errors;
 	EXPECT_EQ(textOf("resumed/runs.jsonl"), resumed);
