@@ -113,6 +113,13 @@ bool partIsHidden(uint part)
 	vec3 b = weightedVec3(p0, p1, p2, domainWeights(piece.c1));
 	vec3 c = weightedVec3(p0, p1, p2, domainWeights(piece.c2));
 	DisplacedBounds bounds = args.cluster_bounds.at[ref.cluster];
+	if (HAS_DISPLACEMENT)
+	{
+		// Tighter than the cluster's: what displacement can do within the base triangle.
+		vec2 reach = args.triangle_reaches.at[cluster.first_triangle + piece.triangle];
+		bounds.reach_low = max(bounds.reach_low, reach.x);
+		bounds.reach_high = min(bounds.reach_high, reach.y);
+	}
 	InstanceRecord instance = args.instances.at[ref.instance];
 	if (second)
 		return pieceIsHidden(a, b, c, bounds, instance, frame_view, frame_history.pyramid);

@@ -20,13 +20,14 @@ struct BatchPartsArgs
 	GPU_PTR(InstanceRecord) instances;
 	GPU_PTR(ClusterRecord) clusters;
 	GPU_PTR(DisplacedBounds) cluster_bounds;
+	GPU_PTR(vec2) triangle_reaches;  // per triangle; 0 when nothing is displaced
 	GPU_PTR(ClusterRef) visible_clusters;
 	GPU_PTR(FullCluster) full_clusters;
 	uint most_vertices;  // of a batch
 	uint most_triangles;
 	uint second_phase;  // 1: what was hidden is tested against this frame's pyramid
 };
-SHARED_LAYOUT(BatchPartsArgs, 112, second_phase, 104)
+SHARED_LAYOUT(BatchPartsArgs, 120, second_phase, 112)
 
 SHARED_END
 

@@ -43,6 +43,8 @@ ordered_json frameJson(const RunFacts& facts)
 		{ "part_triangles", counts.part_triangles },
 		{ "split_triangles", counts.split_triangles },
 		{ "micro_triangles", counts.micro_triangles },
+		{ "hidden_parts", counts.hidden_parts },
+		{ "revealed_parts", counts.revealed_parts },
 		{ "covered_pixels", counts.covered_pixels },
 	};
 }

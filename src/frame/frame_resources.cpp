@@ -42,6 +42,7 @@ constexpr SceneArray kSceneArrays[] = {
 	{ "seam_corners", bytesOf<&BuiltScene::seam_corners> },
 	{ "clusters", bytesOf<&BuiltScene::clusters> },
 	{ "cluster_bounds", bytesOf<&BuiltScene::cluster_bounds> },
+	{ "triangle_reaches", bytesOf<&BuiltScene::triangle_reaches> },
 	{ "meshes", bytesOf<&BuiltScene::meshes> },
 	{ "mesh_bounds", bytesOf<&BuiltScene::mesh_bounds> },
 	{ "material_height_maps", bytesOf<&BuiltScene::material_height_maps> },

@@ -295,6 +295,8 @@ private:
 		sum.part_triangles += resources_->head(LIST_PART_TRIANGLES).wanted;
 		sum.split_triangles += resources_->head(LIST_SPLIT_TRIANGLES).wanted;
 		sum.micro_triangles += (uint64_t(counts.micro_high) << 32 | counts.micro_low) + counts.full_cluster_triangles;
+		sum.hidden_parts += counts.hidden_parts;
+		sum.revealed_parts += counts.revealed_parts;
 		sum.covered_pixels = counts.covered_pixels;  // of the whole depth image, so the last round's count is the frame's
 	}
 

@@ -84,6 +84,7 @@ constexpr ResourceDesc kResources[] = {
 	  } },
 	{ "clusters", "buffer", perCluster<sizeof(ClusterRecord)> },
 	{ "cluster_bounds", "buffer", perCluster<sizeof(DisplacedBounds)> },
+	{ "triangle_reaches", "buffer", perTriangle<sizeof(vec2)> },
 	{ "meshes", "buffer", perMesh<sizeof(MeshRecord)> },
 	{ "mesh_bounds", "buffer", perMesh<sizeof(DisplacedBounds)> },
 	{ "instances", "buffer", perInstance<sizeof(InstanceRecord)> },

@@ -50,6 +50,8 @@ inline constexpr Condition kOcclusionCulls = { [](const PlanInput& input) { retu
 											   "occlusion culling is off, or attachments hold depth" };
 inline constexpr Condition kPartsMayHide = { [](const PlanInput& input) { return kOcclusionCulls.holds(input) && kTessellates.holds(input); },
 											 "occlusion culling is off, or nothing is tessellated" };
+inline constexpr Condition kDisplacedPartsMayHide = { [](const PlanInput& input) { return kPartsMayHide.holds(input) && kDisplaced.holds(input); },
+													  "no part is displaced, or none is tested for being hidden" };
 inline constexpr Condition kMesh = { [](const PlanInput& input) { return usesMesh(input) && input.device.mesh_shader; },
 									 "another producer of visibility is chosen, or the device lacks VK_EXT_mesh_shader" };
 inline constexpr Condition kIndexed = { usesIndexed, "another producer of visibility is chosen" };

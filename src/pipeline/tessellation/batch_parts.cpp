@@ -12,6 +12,7 @@ static constexpr Use kUses[] = {
 	{ "instances", Access::ComputeRead, &kPartsMayHide },
 	{ "clusters", Access::ComputeRead, &kPartsMayHide },
 	{ "cluster_bounds", Access::ComputeRead, &kPartsMayHide },
+	{ "triangle_reaches", Access::ComputeRead, &kDisplacedPartsMayHide },
 	{ "visible_clusters", Access::ComputeRead, &kPartsMayHide },
 	{ "positions", Access::ComputeRead, &kPartsMayHide },
 	{ "triangles", Access::ComputeRead, &kPartsMayHide },

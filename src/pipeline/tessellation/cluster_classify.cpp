@@ -14,7 +14,6 @@ static constexpr Use kUses[] = {
 	{ "instances", Access::ComputeRead },
 	{ "clusters", Access::ComputeRead },
 	{ "cluster_bounds", Access::ComputeRead, &kCulls },
-	{ "cluster_bounds", Access::ComputeRead, &kCulls },
 	{ "positions", Access::ComputeRead },
 	{ "triangles", Access::ComputeRead },
 	{ "heads", Access::ComputeWrite },
@@ -29,7 +28,6 @@ static void record(PassContext& pass)
 	ClusterClassifyArgs args = {};
 	args.instances = pass.address("instances");
 	args.clusters = pass.address("clusters");
-	args.cluster_bounds = pass.address("cluster_bounds");
 	args.cluster_bounds = pass.address("cluster_bounds");
 	args.positions = pass.address("positions");
 	args.triangles = pass.address("triangles");

@@ -14,6 +14,7 @@ static constexpr Use kUses[] = {
 	{ "instances", Access::ComputeRead },
 	{ "clusters", Access::ComputeRead },
 	{ "cluster_bounds", Access::ComputeRead },
+	{ "triangle_reaches", Access::ComputeRead, &kDisplacedPartsMayHide },
 	{ "visible_clusters", Access::ComputeRead },
 	{ "positions", Access::ComputeRead },
 	{ "triangles", Access::ComputeRead },

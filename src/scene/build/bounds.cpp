@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace tessera
 {
@@ -114,7 +115,9 @@ void includeDirections(const vec3 (&directions)[3], DirectionBox& box)
 	}
 }
 
-void boundDisplacement(const BuiltScene& scene, const std::vector<HeightRanges>& maps, const ClusterRecord& cluster, DisplacedBounds& bounds)
+// Writes the reaches of the cluster's triangles as it goes.
+void boundDisplacement(const BuiltScene& scene, const std::vector<HeightRanges>& maps, const ClusterRecord& cluster, DisplacedBounds& bounds,
+					   std::span<vec2> triangle_reaches)
 {
 	const uint32_t own_map = scene.material_height_maps[cluster.material];
 	Interval reach;
@@ -122,12 +125,17 @@ void boundDisplacement(const BuiltScene& scene, const std::vector<HeightRanges>&
 	for (uint32_t i = 0; i < clusterTriangles(cluster); ++i)
 	{
 		const ClusterTriangle triangle = clusterTriangle(scene, cluster, i);
-		const Interval own = triangleReach(scene, maps, triangle, own_map);
+		Interval own = triangleReach(scene, maps, triangle, own_map);
 		reach.include(own);
+		triangle_reaches[triangle.index] = vec2(0);
 		if (own.low == 0 && own.high == 0)
 			continue;
 		includeDirections({ scene.directions[triangle.vertices[0]], scene.directions[triangle.vertices[1]], scene.directions[triangle.vertices[2]] },
 						  directions);
+		// Where there is no direction a point stays where it is.
+		if (directions.has_zero)
+			own.include(0.0f);
+		triangle_reaches[triangle.index] = glm::clamp(vec2(own.low, own.high), -kFarthestReach, kFarthestReach);
 	}
 	if (directions.has_zero)
 		reach.include(0.0f);
@@ -167,7 +175,8 @@ void boundNormals(const BuiltScene& scene, const ClusterRecord& cluster, Displac
 	bounds.cone_cutoff = float(std::sqrt(std::max(0.0, 1 - cosine * cosine)) + 1e-4);
 }
 
-DisplacedBounds clusterBounds(const BuiltScene& scene, const std::vector<HeightRanges>& maps, const ClusterRecord& cluster)
+DisplacedBounds clusterBounds(const BuiltScene& scene, const std::vector<HeightRanges>& maps, const ClusterRecord& cluster,
+							  std::span<vec2> triangle_reaches)
 {
 	DisplacedBounds bounds = emptyBounds();
 	for (uint32_t v = cluster.first_vertex; v < cluster.first_vertex + clusterVertices(cluster); ++v)
@@ -176,7 +185,7 @@ DisplacedBounds clusterBounds(const BuiltScene& scene, const std::vector<HeightR
 		bounds.high = glm::max(bounds.high, scene.positions[v]);
 	}
 	if (!scene.uvs.empty())
-		boundDisplacement(scene, maps, cluster, bounds);
+		boundDisplacement(scene, maps, cluster, bounds, triangle_reaches);
 	const bool displaced = bounds.reach_low != 0 || bounds.reach_high != 0;
 	if (!displaced && !scene.materials[cluster.material].double_sided)
 		boundNormals(scene, cluster, bounds);
@@ -265,10 +274,11 @@ void buildBounds(BuiltScene& scene)
 	for (const HeightMapData& map : scene.height_maps)
 		maps.emplace_back(map);
 	scene.cluster_bounds.resize(scene.clusters.size());
+	scene.triangle_reaches.resize(scene.uvs.empty() ? 0 : scene.triangles.size());
 	constexpr size_t kBand = 64;
 	parallelFor((scene.clusters.size() + kBand - 1) / kBand, [&](size_t band) {
 		for (size_t i = band * kBand; i < std::min(scene.clusters.size(), (band + 1) * kBand); ++i)
-			scene.cluster_bounds[i] = clusterBounds(scene, maps, scene.clusters[i]);
+			scene.cluster_bounds[i] = clusterBounds(scene, maps, scene.clusters[i], scene.triangle_reaches);
 	});
 	for (const MeshRecord& mesh : scene.meshes)
 	{
