@@ -114,5 +114,13 @@ void main()
 	uint item_count = cluster_count + (HAS_TESSELLATION ? args.heads.at[LIST_BATCHES].wanted : 0u);
 	item_count = min(item_count, args.item_capacity);
 	for (uint index = gl_WorkGroupID.x; index < item_count; index += gl_NumWorkGroups.x)
+	{
+		if (HAS_OCCLUSION && index < cluster_count && args.full_clusters.at[index].phase == PHASE_HIDDEN)
+		{
+			args.items.at[index].vertex_count = 0u;
+			args.items.at[index].triangle_count = 0u;
+			continue;
+		}
 		dumpItem(workItem(args.inputs, args.full_clusters, args.batches, index, cluster_count), index);
+	}
 }

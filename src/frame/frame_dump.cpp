@@ -39,6 +39,22 @@ bool isSound(const FrameDump& dump, size_t index)
 	return true;
 }
 
+// A part is drawn when it has a place in a batch.
+Status readDrawnParts(Renderer& renderer, FrameDump& dump)
+{
+	TRY_ASSIGN(const std::vector<Batch> batches, readAll<Batch>(renderer, "batches"));
+	TRY_ASSIGN(const std::vector<PartPlace> places, readAll<PartPlace>(renderer, "part_places"));
+	dump.part_is_drawn.resize(dump.parts.size());
+	for (const Batch& batch : batches)
+		for (uint32_t i = batchFirst(batch.parts); i < batchFirst(batch.parts) + batchCount(batch.parts); ++i)
+		{
+			if (i >= places.size() || places[i].part >= dump.parts.size())
+				return fail(ExitCode::CheckFailed, "a batch of the frame names a part that does not exist");
+			dump.part_is_drawn[places[i].part] = true;
+		}
+	return {};
+}
+
 }  // namespace
 
 Result<FrameDump> readLists(Renderer& renderer)
@@ -51,7 +67,11 @@ Result<FrameDump> readLists(Renderer& renderer)
 	for (const DomainTriangle& record : records)
 		dump.parts.push_back(unpackTriangle(record));
 	for (const FullCluster& cluster : full)
+	{
 		dump.full_clusters.push_back(cluster.visible_cluster);
+		dump.cluster_is_drawn.push_back(cluster.phase != PHASE_HIDDEN);
+	}
+	TRY(readDrawnParts(renderer, dump));
 	const auto exists = [&](uint32_t visible) {
 		return visible < dump.visible.size();
 	};

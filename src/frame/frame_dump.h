@@ -24,7 +24,9 @@ struct FrameDump
 	std::vector<ClusterRef> visible;
 	std::vector<DomainPiece> parts;       // unpacked part triangles
 	std::vector<uint32_t> full_clusters;  // indices into visible
-	std::vector<DumpItem> items;          // full clusters, then batches
+	std::vector<bool> part_is_drawn;      // false: found hidden by occlusion culling
+	std::vector<bool> cluster_is_drawn;   // the same of full_clusters
+	std::vector<DumpItem> items;          // full clusters (empty ones for those that are not drawn), then batches
 
 	bool isBatch(size_t item) const { return item >= full_clusters.size(); }
 };

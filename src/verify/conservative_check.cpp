@@ -80,13 +80,18 @@ bool DrawnThings::has(const MicroTriangle& t) const
 
 void addDrawn(const FrameDump& lists, const SceneOrder& order, DrawnThings& drawn)
 {
-	for (const uint32_t visible : lists.full_clusters)
+	for (size_t i = 0; i < lists.full_clusters.size(); ++i)
 	{
-		const ClusterRef ref = order(lists.visible[visible]);
-		drawn.full_clusters.push_back({ ref.instance, ref.cluster });
+		const ClusterRef ref = order(lists.visible[lists.full_clusters[i]]);
+		if (lists.cluster_is_drawn[i])
+			drawn.full_clusters.push_back({ ref.instance, ref.cluster });
 	}
-	for (const DomainPiece& part : lists.parts)
-		drawn.parts.push_back(partOf({ order(lists.visible[part.visible_cluster]), part.triangle, 0, { part.c0, part.c1, part.c2 }, {}, {} }));
+	for (size_t i = 0; i < lists.parts.size(); ++i)
+	{
+		const DomainPiece& part = lists.parts[i];
+		if (lists.part_is_drawn[i])
+			drawn.parts.push_back(partOf({ order(lists.visible[part.visible_cluster]), part.triangle, 0, { part.c0, part.c1, part.c2 }, {}, {} }));
+	}
 }
 
 void sortDrawn(DrawnThings& drawn)

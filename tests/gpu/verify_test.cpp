@@ -26,7 +26,7 @@ verify::Request requestFor(const GpuScene& scene, std::vector<float> rates, uint
 	request.options.width_px = 120;
 	request.options.height_px = 68;
 	request.uncut_options = request.options;
-	request.uncut_options.cull = { false, false };
+	request.uncut_options.cull = { false, false, false };
 	request.paths = verify::rasterPaths(gpu());
 	request.cameras = verify::randomCameras(scene.built, 5, random_cameras);
 	request.cameras.push_back({ "own", scene.camera });
