@@ -1,5 +1,6 @@
 #include "app/commands.h"
 #include "app/option_text.h"
+#include "app/rate_search.h"
 #include "app/scene_load.h"
 #include "app/stats_json.h"
 #include "base/log.h"
@@ -69,9 +70,10 @@ Result<FrameSeries> drawFrames(Renderer& renderer, const Camera& camera, const A
 }
 
 // Everything that needs the renderer, so that it is gone, and validated, when this returns.
-Status drawAndWrite(const CommandLine& line, const std::string& picture_path, const Subject& subject, Device& device)
+// `found`: how the rate was found, when it was.
+Status drawAndWrite(const CommandLine& line, const AppOptions& options, const std::optional<FoundRate>& found, const std::string& picture_path,
+					const Subject& subject, Device& device)
 {
-	const AppOptions& options = line.options;
 	TRY_ASSIGN(const std::unique_ptr<Renderer> renderer, Renderer::create(device, subject.scene, subject.table, framePasses(), options));
 	logInfo("drawing {}x{} at {} pixels per segment", options.width_px, options.height_px, options.rate);
 	TRY_ASSIGN(const FrameSeries series, drawFrames(*renderer, subject.camera, options));
@@ -81,7 +83,14 @@ Status drawAndWrite(const CommandLine& line, const std::string& picture_path, co
 	if (line.stats.empty())
 		return {};
 	const RunFacts facts = { device, subject.scene, options, subject.camera, renderer->plan(), renderer->planInput(), series, renderer->memory() };
-	TRY(writeJson(line.stats, statsJson(facts)));
+	nlohmann::ordered_json stats = statsJson(facts);
+	if (found)
+		stats["error"] = { { "seen_max_px", found->seen.px.max },
+						   { "seen_p99_px", found->seen.px.p99 },
+						   { "seen_rms_px", found->seen.px.rms },
+						   { "samples", found->seen.samples },
+						   { "rates_tried", found->tried } };
+	TRY(writeJson(line.stats, stats));
 	if (line.stats != "-")
 		logInfo("wrote {}", line.stats);
 	return {};
@@ -96,7 +105,15 @@ Status renderCommand(const CommandLine& line)
 	TRY_ASSIGN(const std::unique_ptr<Device> device,
 			   Device::create({ line.options.device, line.options.validate, line.options.pipeline_statistics }));
 	logInfo("device {}, driver {}", device->name, device->driver);
-	TRY(drawAndWrite(line, picture_path, subject, *device));
+	AppOptions options = line.options;
+	std::optional<FoundRate> found;
+	if (options.max_error_px)
+	{
+		TRY_ASSIGN(found, rateForError(subject.scene, subject.table, subject.camera, options, *options.max_error_px));
+		options.rate = static_cast<float>(found->rate);
+		logInfo("rate {:.4g} keeps the error seen at or below {:.3g} px", found->rate, found->seen.px.max);
+	}
+	TRY(drawAndWrite(line, options, found, picture_path, subject, *device));
 	if (const uint32_t count = device->validationMessages())
 		return fail(ExitCode::CheckFailed, "--validate: the validation layer had {}", counted(count, "message"));
 	return {};

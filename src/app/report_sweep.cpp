@@ -267,6 +267,7 @@ private:
 		errors.reference_mesh_triangles = surface_->triangleCount();
 		errors.visible = report::visibleError(pair, diagonal, {}, progress_);
 		errors.whole = report::wholeSurfaceError(pair, diagonal, {}, progress_);
+		report::includeSeen(errors.whole, errors.visible);
 		errors.numerics = report::measureNumerics(host_, view, *micro);
 		run.surface = errors;
 		run.heat = fmt::format("pictures/error_rate{}_{}x{}.png", run.rate_granted, options.width_px, options.height_px);

@@ -189,6 +189,14 @@ RegionError visibleError(const SurfacePair& surfaces, double diagonal_world, con
 	return untilSteady(surfaces, spots, false, diagonal_world, limits, progress, "distances over what the camera sees");
 }
 
+void includeSeen(RegionError& whole, const RegionError& seen)
+{
+	for (Figures RegionError::*figures :
+		 { &RegionError::to_tessellated_mesh, &RegionError::to_reference_mesh, &RegionError::mesh, &RegionError::relative,
+		   &RegionError::to_tessellated_px, &RegionError::to_reference_px, &RegionError::px, &RegionError::normal_deg })
+		(whole.*figures).max = std::max((whole.*figures).max, (seen.*figures).max);
+}
+
 ErrorPicture errorPicture(const SurfacePair& surfaces, uint32_t most_width, Progress& progress)
 {
 	const View& view = surfaces.view();

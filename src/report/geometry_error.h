@@ -33,6 +33,9 @@ struct SamplingLimits
 RegionError wholeSurfaceError(const SurfacePair& surfaces, double diagonal_world, const SamplingLimits& limits, Progress& progress);
 RegionError visibleError(const SurfacePair& surfaces, double diagonal_world, const SamplingLimits& limits, Progress& progress);
 
+// What is seen is a part of the whole: raises the largest errors of `whole` to those of `seen`, which looks closer where pixels are small.
+void includeSeen(RegionError& whole, const RegionError& seen);
+
 // The two-sided distance in pixels at the middle of every pixel of a smaller picture; negative where nothing is seen.
 struct ErrorPicture
 {

@@ -27,6 +27,7 @@ std::optional<double> errorOf(const Run& run, ErrorKind kind);
 // not compared: `runs` of one size.
 std::vector<size_t> paretoFront(std::span<const Run* const> runs, ErrorKind kind);
 
+// max_error_px: of the largest error seen. Under max_ms the run with the smallest 99th percentile, seen, is the best.
 struct Limits
 {
 	std::optional<double> max_error_px;

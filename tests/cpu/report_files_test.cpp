@@ -129,13 +129,13 @@ TEST(recommend, cheapestUnderAnErrorAndBestWithinATime)
 	failed.setting = { 1, "soft", "edge", 64, 48 };
 	failed.failure = "no memory";
 	runs.push_back(failed);
-	const std::vector<Advice> advice = recommend(runs, { 1.0, 1.6 });
+	const std::vector<Advice> advice = recommend(runs, { 3.0, 1.6 });
 	ASSERT_EQ(advice.size(), 2u);
 	EXPECT_EQ(advice[0].run, &runs[2]);
 	EXPECT_EQ(advice[1].run, &runs[2]);
-	EXPECT_EQ(recommend(runs, { 2.0, std::nullopt })[0].run, &runs[1]);
+	EXPECT_EQ(recommend(runs, { 6.0, std::nullopt })[0].run, &runs[1]);
 	EXPECT_EQ(recommend(runs, { std::nullopt, 10.0 })[0].run, &runs[4]);
-	const Advice none = recommend(runs, { 0.1, std::nullopt })[0];
+	const Advice none = recommend(runs, { 1.0, std::nullopt })[0];
 	EXPECT_EQ(none.run, nullptr);
 	EXPECT_NE(none.text.find("none of those tried"), std::string::npos);
 	EXPECT_TRUE(recommend(runs, {}).empty());

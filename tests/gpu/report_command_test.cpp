@@ -2,6 +2,7 @@
 #include "base/file.h"
 #include "cpu/program_run.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -97,6 +98,26 @@ TEST_F(reportCommand, wrongUsageIsRefusedBeforeAnythingIsWritten)
 	EXPECT_EQ(runTessera(std::string(kArguments) + "none --view wireframe --quiet").exit_code, 2);
 	EXPECT_EQ(runTessera("report builtin:quad --rasters auto,soft -o none --quiet").exit_code, 2);
 	EXPECT_FALSE(std::filesystem::exists(scratchFolder() / "none"));
+}
+
+TEST_F(reportCommand, renderHoldsTheErrorThatIsAskedFor)
+{
+	const ProgramRun run = runTessera("render builtin:quad --size 96x64 --max-error-px 1.5 --stats - --quiet");
+	ASSERT_EQ(run.exit_code, 0) << run.errors;
+	const json stats = json::parse(run.output, nullptr, false);
+	ASSERT_TRUE(stats.is_object());
+	EXPECT_LE(stats["error"]["seen_max_px"], 1.5);
+	EXPECT_FLOAT_EQ(stats["frame"]["rate_granted"], stats["options"]["rate"]);
+	// Measured again by the report at that rate; and a rate a quarter coarser is too coarse.
+	const double rate = stats["options"]["rate"];
+	ASSERT_EQ(runTessera(fmt::format("{}held --raster soft --rates {},{} --quiet", kArguments, rate, rate * 1.25)).exit_code, 0);
+	const json report = json::parse(textOf("held/report.json"), nullptr, false);
+	EXPECT_LE(report["runs"][0]["surface"]["visible"]["px"]["max"], 1.5);
+	EXPECT_GT(report["runs"][1]["surface"]["visible"]["px"]["max"], 1.5 * 0.97);
+	// What no rate can hold is said.
+	const ProgramRun never = runTessera("render builtin:quad --size 96x64 --max-error-px 1e-5 --quiet");
+	EXPECT_EQ(never.exit_code, 3);
+	EXPECT_NE(never.errors.find("not held"), std::string::npos) << never.errors;
 }
 
 }  // namespace tessera::test
