@@ -21,6 +21,18 @@ struct DisplacedBounds
 };
 SHARED_LAYOUT(DisplacedBounds, 72, cone_cutoff, 68)
 
+// What displacement can do within a base triangle, whoever owns its edges and corners, while no mip coarser than
+// REACH_FINE_MIP or REACH_COARSE_MIP is read. Intervals as DisplacedBounds.reach_low and reach_high.
+#define REACH_FINE_MIP 1
+#define REACH_COARSE_MIP 3
+struct TriangleReach
+{
+	vec2 fine;
+	vec2 coarse;
+	float density;  // largest texel density of any of its points
+};
+SHARED_LAYOUT(TriangleReach, 20, density, 16)
+
 // A box in mesh units.
 struct Box
 {

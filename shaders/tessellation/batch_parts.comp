@@ -97,6 +97,22 @@ void markStarts()
 	}
 }
 
+// Tighter than the cluster's: what displacement can do within the base triangle, on the mips that a piece with undisplaced
+// corners p, q, r can read.
+void narrowReach(inout DisplacedBounds bounds, TriangleReach reach, vec3 p, vec3 q, vec3 r, Placement placement)
+{
+	View view = frame_view;
+	float farthest = max(rateDistanceSquared(placed(placement, p), view),
+	                     max(rateDistanceSquared(placed(placement, q), view), rateDistanceSquared(placed(placement, r), view)));
+	float footprint = farthest * view.sample_over_focal_squared * placement.inverse_scale_squared * reach.density * reach.density * 1.001;
+	float level = ceil(heightLevel(footprint, MAX_HEIGHT_LEVELS));
+	if (level > float(REACH_COARSE_MIP))
+		return;
+	vec2 interval = level <= float(REACH_FINE_MIP) ? reach.fine : reach.coarse;
+	bounds.reach_low = max(bounds.reach_low, interval.x);
+	bounds.reach_high = min(bounds.reach_high, interval.y);
+}
+
 bool partIsHidden(uint part)
 {
 	bool second = args.second_phase != 0u;
@@ -113,14 +129,9 @@ bool partIsHidden(uint part)
 	vec3 b = weightedVec3(p0, p1, p2, domainWeights(piece.c1));
 	vec3 c = weightedVec3(p0, p1, p2, domainWeights(piece.c2));
 	DisplacedBounds bounds = args.cluster_bounds.at[ref.cluster];
-	if (HAS_DISPLACEMENT)
-	{
-		// Tighter than the cluster's: what displacement can do within the base triangle.
-		vec2 reach = args.triangle_reaches.at[cluster.first_triangle + piece.triangle];
-		bounds.reach_low = max(bounds.reach_low, reach.x);
-		bounds.reach_high = min(bounds.reach_high, reach.y);
-	}
 	InstanceRecord instance = args.instances.at[ref.instance];
+	if (HAS_DISPLACEMENT)
+		narrowReach(bounds, args.triangle_reaches.at[cluster.first_triangle + piece.triangle], a, b, c, placementOf(instance, frame_view));
 	if (second)
 		return pieceIsHidden(a, b, c, bounds, instance, frame_view, frame_history.pyramid);
 	return pieceIsHidden(a, b, c, bounds, instance, frame_history.last_view, frame_history.last_pyramid);

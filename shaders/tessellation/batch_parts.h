@@ -20,7 +20,7 @@ struct BatchPartsArgs
 	GPU_PTR(InstanceRecord) instances;
 	GPU_PTR(ClusterRecord) clusters;
 	GPU_PTR(DisplacedBounds) cluster_bounds;
-	GPU_PTR(vec2) triangle_reaches;  // per triangle; 0 when nothing is displaced
+	GPU_PTR(TriangleReach) triangle_reaches;  // per triangle; 0 when nothing is displaced
 	GPU_PTR(ClusterRef) visible_clusters;
 	GPU_PTR(FullCluster) full_clusters;
 	uint most_vertices;  // of a batch

@@ -84,7 +84,7 @@ constexpr ResourceDesc kResources[] = {
 	  } },
 	{ "clusters", "buffer", perCluster<sizeof(ClusterRecord)> },
 	{ "cluster_bounds", "buffer", perCluster<sizeof(DisplacedBounds)> },
-	{ "triangle_reaches", "buffer", perTriangle<sizeof(vec2)> },
+	{ "triangle_reaches", "buffer", perTriangle<sizeof(TriangleReach)> },
 	{ "meshes", "buffer", perMesh<sizeof(MeshRecord)> },
 	{ "mesh_bounds", "buffer", perMesh<sizeof(DisplacedBounds)> },
 	{ "instances", "buffer", perInstance<sizeof(InstanceRecord)> },

@@ -91,7 +91,7 @@ struct BuiltScene
 	// clusters and meshes
 	std::vector<ClusterRecord> clusters;
 	std::vector<DisplacedBounds> cluster_bounds;
-	std::vector<vec2> triangle_reaches;  // per triangle: least and greatest displacement before the scale, mesh units; empty without any
+	std::vector<TriangleReach> triangle_reaches;  // per triangle; empty when nothing is displaced
 	std::vector<MeshRecord> meshes;
 	std::vector<DisplacedBounds> mesh_bounds;
 	std::vector<float> mesh_longest_edge;  // mesh units; bounds how often a triangle can be split

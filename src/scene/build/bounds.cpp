@@ -39,32 +39,33 @@ ClusterTriangle clusterTriangle(const BuiltScene& scene, const ClusterRecord& cl
 	return triangle;
 }
 
-void includeFootprint(const std::vector<HeightRanges>& maps, uint32_t map, vec2 low, vec2 high, Interval& reach)
+void includeFootprint(const std::vector<HeightRanges>& maps, uint32_t map, vec2 low, vec2 high, uint32_t mips, Interval& reach)
 {
 	if (map == NO_INDEX)
 		reach.include(0.0f);
 	else
-		reach.include(maps[map].displacement(maps[map].over(low, high)));
+		reach.include(maps[map].displacement(maps[map].over(low, high, mips)));
 }
 
-// Every displacement that a point of the triangle can have, whoever owns its edges and corners.
-Interval triangleReach(const BuiltScene& scene, const std::vector<HeightRanges>& maps, const ClusterTriangle& triangle, uint32_t own_map)
+// Every displacement that a point of the triangle can have while the finest `mips` are read, whoever owns its edges and corners.
+Interval triangleReach(const BuiltScene& scene, const std::vector<HeightRanges>& maps, const ClusterTriangle& triangle, uint32_t own_map,
+					   uint32_t mips = MAX_HEIGHT_LEVELS)
 {
 	Interval reach;
 	const vec2 a = scene.uvs[triangle.vertices[0]], b = scene.uvs[triangle.vertices[1]], c = scene.uvs[triangle.vertices[2]];
-	includeFootprint(maps, own_map, glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), reach);
+	includeFootprint(maps, own_map, glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), mips, reach);
 	uint32_t record = scene.first_seam_edges.empty() ? 0 : scene.first_seam_edges[triangle.index];
 	for (uint32_t edge = 0; edge < 3; ++edge)
 		if (triangleSeamFlags(triangle.flags) & (1u << edge))
 		{
 			const SeamEdge& seam = scene.seam_edges[record++];
-			includeFootprint(maps, seam.height_map, glm::min(seam.uv_first, seam.uv_second), glm::max(seam.uv_first, seam.uv_second), reach);
+			includeFootprint(maps, seam.height_map, glm::min(seam.uv_first, seam.uv_second), glm::max(seam.uv_first, seam.uv_second), mips, reach);
 		}
 	for (const uint32_t vertex : triangle.vertices)
 		if (!scene.seam_corner_indices.empty() && scene.seam_corner_indices[vertex] != NO_INDEX)
 		{
 			const SeamCorner& corner = scene.seam_corners[scene.seam_corner_indices[vertex]];
-			includeFootprint(maps, corner.height_map, corner.uv, corner.uv, reach);
+			includeFootprint(maps, corner.height_map, corner.uv, corner.uv, mips, reach);
 		}
 	return reach;
 }
@@ -115,9 +116,28 @@ void includeDirections(const vec3 (&directions)[3], DirectionBox& box)
 	}
 }
 
+float largestDensity(const BuiltScene& scene, const ClusterTriangle& triangle)
+{
+	float largest = 0;
+	uint32_t record = scene.first_seam_edges.empty() ? 0 : scene.first_seam_edges[triangle.index];
+	for (uint32_t edge = 0; edge < 3; ++edge)
+		if (triangleSeamFlags(triangle.flags) & (1u << edge))
+		{
+			const SeamEdge& seam = scene.seam_edges[record++];
+			largest = std::max({ largest, seam.density_first, seam.density_second });
+		}
+	for (const uint32_t vertex : triangle.vertices)
+	{
+		largest = std::max(largest, scene.densities[vertex]);
+		if (!scene.seam_corner_indices.empty() && scene.seam_corner_indices[vertex] != NO_INDEX)
+			largest = std::max(largest, scene.seam_corners[scene.seam_corner_indices[vertex]].density);
+	}
+	return largest;
+}
+
 // Writes the reaches of the cluster's triangles as it goes.
 void boundDisplacement(const BuiltScene& scene, const std::vector<HeightRanges>& maps, const ClusterRecord& cluster, DisplacedBounds& bounds,
-					   std::span<vec2> triangle_reaches)
+					   std::span<TriangleReach> triangle_reaches)
 {
 	const uint32_t own_map = scene.material_height_maps[cluster.material];
 	Interval reach;
@@ -125,17 +145,21 @@ void boundDisplacement(const BuiltScene& scene, const std::vector<HeightRanges>&
 	for (uint32_t i = 0; i < clusterTriangles(cluster); ++i)
 	{
 		const ClusterTriangle triangle = clusterTriangle(scene, cluster, i);
-		Interval own = triangleReach(scene, maps, triangle, own_map);
+		const Interval own = triangleReach(scene, maps, triangle, own_map);
 		reach.include(own);
-		triangle_reaches[triangle.index] = vec2(0);
+		triangle_reaches[triangle.index] = {};
 		if (own.low == 0 && own.high == 0)
 			continue;
 		includeDirections({ scene.directions[triangle.vertices[0]], scene.directions[triangle.vertices[1]], scene.directions[triangle.vertices[2]] },
 						  directions);
-		// Where there is no direction a point stays where it is.
-		if (directions.has_zero)
-			own.include(0.0f);
-		triangle_reaches[triangle.index] = glm::clamp(vec2(own.low, own.high), -kFarthestReach, kFarthestReach);
+		const auto upTo = [&](uint32_t mip) {
+			Interval some = triangleReach(scene, maps, triangle, own_map, mip + 1);
+			// Where there is no direction a point stays where it is.
+			if (directions.has_zero)
+				some.include(0.0f);
+			return glm::clamp(vec2(some.low, some.high), -kFarthestReach, kFarthestReach);
+		};
+		triangle_reaches[triangle.index] = { upTo(REACH_FINE_MIP), upTo(REACH_COARSE_MIP), largestDensity(scene, triangle) };
 	}
 	if (directions.has_zero)
 		reach.include(0.0f);
@@ -176,7 +200,7 @@ void boundNormals(const BuiltScene& scene, const ClusterRecord& cluster, Displac
 }
 
 DisplacedBounds clusterBounds(const BuiltScene& scene, const std::vector<HeightRanges>& maps, const ClusterRecord& cluster,
-							  std::span<vec2> triangle_reaches)
+							  std::span<TriangleReach> triangle_reaches)
 {
 	DisplacedBounds bounds = emptyBounds();
 	for (uint32_t v = cluster.first_vertex; v < cluster.first_vertex + clusterVertices(cluster); ++v)

@@ -43,8 +43,9 @@ public:
 
 	// Hull of every texel, of every mip, that a bilinear read anywhere in [low, high] (texture coordinates, any magnitude) touches:
 	// wraps are followed, the float rounding of interpolated coordinates is allowed for. A footprint of up to 8 x 8 texels of a mip
-	// is read exactly; a larger one is rounded outwards to cells of at most half its size. A few dozen reads per mip.
-	Interval over(vec2 low, vec2 high) const;
+	// is read exactly; a larger one is rounded outwards to cells of at most half its size. A few dozen reads per mip. `mips`: only
+	// the finest so many.
+	Interval over(vec2 low, vec2 high, uint32_t mips = MAX_HEIGHT_LEVELS) const;
 
 	// The displacement interval of `heights`, rounding of the evaluation included. Mesh units at scale 1.
 	Interval displacement(Interval heights) const;

@@ -129,12 +129,12 @@ Interval HeightRanges::cellsOver(uint32_t level, uint32_t first_x, uint32_t last
 	return heights;
 }
 
-Interval HeightRanges::over(vec2 low, vec2 high) const
+Interval HeightRanges::over(vec2 low, vec2 high, uint32_t mips) const
 {
 	const double pad_u = kCoordinateRounding * (1 + std::max(std::fabs(double(low.x)), std::fabs(double(high.x))));
 	const double pad_v = kCoordinateRounding * (1 + std::max(std::fabs(double(low.y)), std::fabs(double(high.y))));
 	Interval heights;
-	for (uint32_t level = 0; level < map_.level_count; ++level)
+	for (uint32_t level = 0; level < std::min(map_.level_count, mips); ++level)
 	{
 		const Level& own = levels_[level];
 		const Spans columns = spansOf(low.x - pad_u, high.x + pad_u, own.width, map_.wrap_u);
