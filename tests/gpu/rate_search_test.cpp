@@ -229,6 +229,32 @@ TEST_F(rateSearch, everyRoundHasTheSameRate)
 	}
 }
 
+TEST_F(rateSearch, aBudgetIsKeptAndTheFrameWithinItIsWhole)
+{
+	const auto scene = gpuScene("terrain");
+	const Camera camera = closeTo(*scene, 0.4);
+	for (const Raster raster : rasterPaths())
+	{
+		RenderOptions options = uncut(0.5f, raster);
+		uint32_t coarser = 0;
+		for (const uint64_t budget : { 30'000'000ull, 700'000ull, 320'000ull })
+		{
+			options.lists_bytes = budget;
+			GpuFrame tight = drawFrame(*scene, options, camera);
+			const std::string what = fmt::format("raster {}, {} bytes", int(raster), budget);
+			EXPECT_LE(tight.renderer->memory().lists, budget) << what;
+			EXPECT_GE(tight.result.coarsening, coarser) << what;
+			coarser = tight.result.coarsening;
+			Capacities capacities;
+			for (const ListStats& list : tight.result.lists)
+				if (list.name != "batches")
+					capacities[list.name] = list.capacity;
+			expectSmallestThatFits(tight, camera, capacities, what);
+		}
+		EXPECT_GT(coarser, 0u);
+	}
+}
+
 // Fewer levels than are needed: nothing overflows, and all the same everything is listed.
 TEST_F(rateSearch, levelsThatWereNotPlannedLoseNothing)
 {
