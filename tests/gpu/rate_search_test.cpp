@@ -255,6 +255,26 @@ TEST_F(rateSearch, aBudgetIsKeptAndTheFrameWithinItIsWhole)
 	}
 }
 
+// Packings follow what other lists hold: they grow, at once where there is no other way, else before they are too small.
+TEST_F(rateSearch, packingsGrowAndNeverCoarsen)
+{
+	const auto scene = gpuScene("terrain");
+	GpuFrame frame = drawFrame(*scene, uncut(0.21f, drawingPaths().front()));
+	const uint64_t wanted = frame.list("micro_vertices").wanted;
+	ASSERT_GT(wanted, findList("micro_vertices")->default_capacity);
+	EXPECT_EQ(frame.result.attempts, 2u);
+	const uint32_t capacity = frame.list("micro_vertices").capacity;
+	for (double nearness = 1; nearness > 0.85; nearness *= 0.93)
+	{
+		drawAgain(frame, closeTo(*scene, nearness));
+		EXPECT_EQ(frame.result.attempts, 1u) << nearness;
+		EXPECT_EQ(frame.result.coarsening, 0u) << nearness;
+		EXPECT_GE(frame.list("micro_vertices").capacity, capacity) << nearness;
+		EXPECT_GE(frame.list("micro_vertices").peak, wanted) << "peaks outlive the list's growth";
+	}
+	EXPECT_GT(frame.list("micro_vertices").capacity, capacity);
+}
+
 // Fewer levels than are needed: nothing overflows, and all the same everything is listed.
 TEST_F(rateSearch, levelsThatWereNotPlannedLoseNothing)
 {
