@@ -173,7 +173,8 @@ uint64_t bytesOfLists(const std::array<uint32_t, LIST_COUNT>& capacities, const 
 		bytes += needed ? listBytes(list, capacities[list.index]) + 16 : 0;  // buffers are whole words of 16 bytes
 	}
 	if (tessellates)
-		bytes += kMostRateSteps * sizeof(RateStep) + uint64_t(capacities[LIST_PART_TRIANGLES]) * sizeof(uint32_t) + 16;
+		bytes += kMostRateSteps * sizeof(RateStep) + uint64_t(capacities[LIST_PART_TRIANGLES]) * sizeof(PartPlace) + 16 +
+				 (uint64_t(capacities[LIST_PART_TRIANGLES]) / BATCH_WINDOW + 1) * sizeof(uint32_t) + 16;
 	return bytes;
 }
 

@@ -34,7 +34,7 @@ bool growsOnDemand(const ListDesc& list);
 // --capacity or --budget says how many entries a list has, so it does not grow.
 bool isFixed(const ListDesc& list, const RenderOptions& options);
 
-// Bytes of all lists that frames with these options can need, at these capacities, with their heads, counts and offsets.
+// Bytes of all lists that frames with these options can need, at these capacities, with their heads, counts and places.
 uint64_t bytesOfLists(const std::array<uint32_t, LIST_COUNT>& capacities, const PlanInput& input);
 
 // Bytes of a list's buffer at its capacity.

@@ -22,7 +22,7 @@ RenderOptions uncut(float rate, Raster raster)
 {
 	RenderOptions options = smallOptions(rate);
 	options.raster = raster;
-	options.cull = { false, false };
+	options.cull = { false, false, false };
 	return options;
 }
 
@@ -183,7 +183,7 @@ TEST_F(rateSearch, withCullingWhatIsSeenIsWholeToo)
 	expectSameAsReference(tight, "terrain");
 	RenderOptions all = options;
 	all.capacities = {};
-	all.cull = { false, false };
+	all.cull = { false, false, false };
 	all.rate = float(tight.result.rate_granted);
 	const GpuFrame unculled = drawFrame(*scene, all, camera);
 	EXPECT_LE(differingPixels(tight.picture(), unculled.picture(), 8), unculled.picture().size() / 4 / 200);
