@@ -105,6 +105,14 @@ void loadStep(uint step)
 
 bool isOverfull(uint list) { return args.heads.at[list].wanted > listLimit(list); }
 
+// A packing of a fixed size is filled later: unless it holds as many of the largest patterns, only counting can say whether it fits.
+bool packingMayOverflow(uint list, uint most_per_part)
+{
+	bool decides = (args.deciding_lists >> list & 1u) != 0u;
+	uint most = args.heads.at[list].wanted + args.heads.at[LIST_PART_TRIANGLES].wanted * most_per_part;
+	return decides && most > args.heads.at[list].capacity;
+}
+
 // The finest candidate worth counting; NO_INDEX: everything fits, or no rate can help.
 uint firstCandidate()
 {
@@ -113,9 +121,7 @@ uint firstCandidate()
 		return NO_INDEX;
 	if (isOverfull(LIST_SPLIT_TRIANGLES) || isOverfull(LIST_PART_TRIANGLES) || isOverfull(LIST_MICRO_VERTICES) || isOverfull(LIST_EXPANDED_TRIANGLES))
 		return 1u;
-	// Packings of a fixed size are filled later: only counting can say now whether they fit.
-	bool packings_decide = (args.deciding_lists >> LIST_MICRO_VERTICES & 3u) != 0u;
-	return packings_decide || args.counts.at[0].split_count[args.split_levels] != 0u ? 0u : NO_INDEX;
+	return packingMayOverflow(LIST_MICRO_VERTICES, BATCH_MAX_VERTICES) || packingMayOverflow(LIST_EXPANDED_TRIANGLES, BATCH_MAX_TRIANGLES) || args.counts.at[0].split_count[args.split_levels] != 0u ? 0u : NO_INDEX;
 }
 
 // How the work is dealt out: unit = (block * clusters + cluster) * slices + slice.

@@ -1,5 +1,6 @@
 #include "app/option_text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -75,6 +76,41 @@ std::optional<dvec3> readVector(std::string_view text)
 std::string printVector(const dvec3& vector)
 {
 	return fmt::format("{},{},{}", vector.x, vector.y, vector.z);
+}
+
+namespace
+{
+
+struct ByteUnit
+{
+	std::string_view name;
+	uint64_t bytes;
+};
+// Names that end in others come first; printing takes the decimal ones, largest first.
+constexpr ByteUnit kByteUnits[] = {
+	{ "KiB", 1ull << 10 }, { "MiB", 1ull << 20 }, { "GiB", 1ull << 30 }, { "GB", 1'000'000'000 }, { "MB", 1'000'000 }, { "kB", 1000 }, { "B", 1 },
+};
+constexpr size_t kFirstDecimal = 3;
+
+}  // namespace
+
+std::optional<uint64_t> readBytes(std::string_view text)
+{
+	const auto unit = std::find_if(std::begin(kByteUnits), std::end(kByteUnits), [&](const ByteUnit& u) { return text.ends_with(u.name); });
+	if (unit != std::end(kByteUnits))
+		text.remove_suffix(unit->name.size());
+	const std::optional<double> number = readNumber(text);
+	if (!number)
+		return std::nullopt;
+	const double bytes = std::round(*number * double(unit != std::end(kByteUnits) ? unit->bytes : 1));
+	return bytes >= 1 && bytes <= 0x1p50 ? std::optional(static_cast<uint64_t>(bytes)) : std::nullopt;
+}
+
+std::string printBytes(uint64_t bytes)
+{
+	const auto unit =
+		std::find_if(std::begin(kByteUnits) + kFirstDecimal, std::end(kByteUnits), [&](const ByteUnit& u) { return bytes % u.bytes == 0; });
+	return fmt::format("{}{}", bytes / unit->bytes, unit->name);
 }
 
 std::string counted(uint64_t count, std::string_view noun)

@@ -27,6 +27,11 @@ std::string printVector(const dvec3& vector);
 
 std::vector<std::string_view> splitAt(std::string_view text, char separator);
 
+// "64MB": a number and one of B, kB, MB, GB, KiB, MiB, GiB; no unit is B. Rounded to whole bytes, 1 to 2^50.
+std::optional<uint64_t> readBytes(std::string_view text);
+// The same back, with the largest decimal unit that leaves a whole number.
+std::string printBytes(uint64_t bytes);
+
 template <typename Names>
 std::string joinNames(const Names& names)
 {

@@ -149,6 +149,25 @@ ordered_json capacitiesJson(const AppOptions& options)
 	return json;
 }
 
+Status parseBudget(AppOptions& options, std::string_view text)
+{
+	const std::optional<uint64_t> bytes = readBytes(text);
+	if (!bytes)
+		return fail(ExitCode::Usage, "a number of bytes is right, such as 64MB or 1.5GiB");
+	options.lists_bytes = *bytes;
+	return {};
+}
+
+std::vector<std::string> printBudget(const AppOptions& options)
+{
+	return options.lists_bytes > 0 ? std::vector{ printBytes(options.lists_bytes) } : std::vector<std::string>();
+}
+
+ordered_json budgetJson(const AppOptions& options)
+{
+	return options.lists_bytes > 0 ? ordered_json(options.lists_bytes) : ordered_json();
+}
+
 const std::array kTable = {
 	OptionDesc{ "size", "WxH", "picture, in pixels", pairOf<&AppOptions::width_px, &AppOptions::height_px, kMostExtent>(), 0, 0, Rebuild::Buffers },
 	OptionDesc{ "eye", "X,Y,Z", "where the camera is, in world units", &AppOptions::eye },
@@ -177,6 +196,8 @@ const std::array kTable = {
 	OptionDesc{ "max-split", "PIECES", "most pieces per edge in one split", &AppOptions::max_split, 2, 11, Rebuild::Pipelines },
 	OptionDesc{ "capacity", "NAME=COUNT", "entries that one list holds (for tests and memory limits)",
 				Custom{ parseCapacity, printCapacities, capacitiesJson }, 0, 0, Rebuild::Buffers, true },
+	OptionDesc{ "budget", "BYTES", "memory of all lists together, such as 64MB; they then have fixed sizes within it",
+				Custom{ parseBudget, printBudget, budgetJson }, 0, 0, Rebuild::Buffers },
 	OptionDesc{ "displacement", "IMAGE[:FACTOR[:OFFSET[:MATERIAL]]]", "height map for a material, or for all", &AppOptions::displacements, 0, 0,
 				Rebuild::Scene, true },
 	OptionDesc{ "displacement-scale", "SCALE", "scales every displacement; 0 = none", &AppOptions::displacement_scale, -1e6, 1e6,

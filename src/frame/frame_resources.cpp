@@ -297,7 +297,7 @@ Status FrameResources::make(std::string_view name, const PlanInput& input)
 		return allocate(name, kMostRateSteps * sizeof(RateStep));
 	if (name == "counts")
 		return allocate(name, sizeof(FrameCounts));
-	if (name == "part_places")
+	if (name == "part_places" || name == "window_seen")
 		return allocate(name, uint64_t(capacities_[LIST_PART_TRIANGLES]) * sizeof(PartPlace));
 	if (name == "window_seen")
 		return allocate(name, (uint64_t(capacities_[LIST_PART_TRIANGLES]) / BATCH_WINDOW + 1) * sizeof(uint32_t));
@@ -361,7 +361,7 @@ uint32_t FrameResources::decidingLists(const PlanInput& input) const
 	uint32_t lists = 0;
 	for (const ListDesc& list : listDescs())
 	{
-		const bool is_fixed = (fixed_lists_ >> list.index & 1) || input.options.capacities.count(std::string(list.name)) > 0;
+		const bool is_fixed = (fixed_lists_ >> list.index & 1) || isFixed(list, input.options);
 		const bool decides = growsOnDemand(list) ? is_fixed && has(list.name) : list.index != LIST_BATCHES;
 		lists |= decides ? 1u << list.index : 0;
 	}
@@ -464,7 +464,7 @@ MemoryStats FrameResources::memory() const
 	MemoryStats memory;
 	for (const auto& [name, held] : buffers_)
 	{
-		if (findList(name) || name == "heads" || name == "counts" || name == "rate_steps")
+		if (findList(name) || name == "heads" || name == "counts" || name == "rate_steps" || name == "part_places")
 			memory.lists += held.bytes();
 		else if (name == "picture" || name == "visibility_buffer" || name == "kept_visibility")
 			memory.images += held.bytes();

@@ -21,9 +21,6 @@ constexpr uint64_t kFirstDumpItems = 1024;
 // Names and sizes of all resources, for the planner.
 std::span<const ResourceDesc> resourceDescs();
 
-// Candidates of rate_search that fit its buffer.
-inline constexpr uint32_t kMostRateSteps = RateController::kMostCoarsening + 1;
-
 class FrameResources
 {
 public:

@@ -1,6 +1,8 @@
 #include "frame/lists.h"
 
+#include "frame/rate_controller.h"
 #include "plan/conditions.h"
+#include "tessellation/rate_search.h"
 
 #include <algorithm>
 
@@ -50,6 +52,80 @@ uint32_t mostBatches(uint32_t parts, const PlanInput& input)
 	return parts / kLeastParts + 2 * (parts / BATCH_WINDOW + 1);
 }
 
+using Capacities = std::array<uint32_t, LIST_COUNT>;
+
+// What the user says goes before everything; then batches follow from parts.
+Capacities withAsked(Capacities capacities, const PlanInput& input)
+{
+	for (const auto& [name, capacity] : input.options.capacities)
+		capacities[findList(name)->index] = capacity;
+	for (const ListDesc& list : kLists)
+		capacities[list.index] = std::clamp(capacities[list.index], list.least_capacity, mostEntries(list));
+	capacities[LIST_BATCHES] = std::max(capacities[LIST_BATCHES], mostBatches(capacities[LIST_PART_TRIANGLES], input));
+	return capacities;
+}
+
+uint32_t usefulEntries(const ListDesc& list, uint64_t capacity, const PlanInput& input)
+{
+	const uint64_t bound = sceneBound(list, input);
+	return static_cast<uint32_t>(std::min<uint64_t>(bound > 0 ? std::min(capacity, bound) : capacity, mostEntries(list)));
+}
+
+Capacities defaultCapacities(const PlanInput& input)
+{
+	Capacities capacities = {};
+	for (const ListDesc& list : kLists)
+		capacities[list.index] = usefulEntries(list, list.default_capacity, input);
+	return withAsked(capacities, input);
+}
+
+// Entries per part triangle where a budget is shared out, in quarters: at a few pixels per segment a part has some 30 micro-triangles.
+constexpr uint64_t kSplitQuarters = 1, kVertexQuarters = 4 * 24, kTriangleQuarters = 4 * 32;
+
+Capacities capacitiesFor(uint64_t parts, uint64_t clusters, const PlanInput& input)
+{
+	Capacities capacities = {};
+	for (const ListDesc& list : kLists)
+		capacities[list.index] = usefulEntries(list, clusters, input);
+	capacities[LIST_PART_TRIANGLES] = static_cast<uint32_t>(parts);
+	capacities[LIST_SPLIT_TRIANGLES] = static_cast<uint32_t>(parts * kSplitQuarters / 4);
+	capacities[LIST_BATCHES] = 1;
+	capacities[LIST_MICRO_VERTICES] = static_cast<uint32_t>(parts * kVertexQuarters / 4);
+	capacities[LIST_EXPANDED_TRIANGLES] = static_cast<uint32_t>(parts * kTriangleQuarters / 4);
+	return withAsked(capacities, input);
+}
+
+// The largest n up to `most` that holds, when it holds for all below as well; 0 when none does.
+template <typename Holds>
+uint64_t largest(uint64_t most, const Holds& holds)
+{
+	uint64_t low = 0, high = most;
+	while (low < high)
+	{
+		const uint64_t middle = (low + high + 1) / 2;
+		if (holds(middle))
+			low = middle;
+		else
+			high = middle - 1;
+	}
+	return low;
+}
+
+// Clusters first, in up to a quarter of the budget (more of them than that are drawn in rounds); then as many parts as fit, and
+// the other lists in proportion.
+Result<Capacities> capacitiesWithin(uint64_t bytes, const PlanInput& input)
+{
+	const uint64_t least = bytesOfLists(capacitiesFor(1, 1, input), input);
+	if (bytes < least)
+		return fail(ExitCode::Usage, "--budget: {} bytes are too few, the smallest lists of this scene and raster path take {}", bytes, least);
+	const uint64_t clusters_bytes = least + (bytes - least) / (input.options.rate > 0 || !usesSoft(input) ? 4 : 1);
+	const uint64_t clusters =
+		std::max<uint64_t>(1, largest(kIndexLimit, [&](uint64_t n) { return bytesOfLists(capacitiesFor(1, n, input), input) <= clusters_bytes; }));
+	const uint64_t parts =
+		std::max<uint64_t>(1, largest(kIndexLimit, [&](uint64_t n) { return bytesOfLists(capacitiesFor(n, clusters, input), input) <= bytes; }));
+	return capacitiesFor(parts, clusters, input);
+}
+
 }  // namespace
 
 uint32_t mostEntries(const ListDesc& list)
@@ -73,9 +149,33 @@ const ListDesc* findList(std::string_view name)
 	return found == std::end(kLists) ? nullptr : found;
 }
 
+bool isFixed(const ListDesc& list, const RenderOptions& options)
+{
+	return options.lists_bytes > 0 || options.capacities.count(std::string(list.name)) > 0;
+}
+
 uint64_t listBytes(const ListDesc& list, uint32_t capacity)
 {
 	return uint64_t(list.record_bytes) * capacity;
+}
+
+uint64_t bytesOfLists(const std::array<uint32_t, LIST_COUNT>& capacities, const PlanInput& input)
+{
+	const bool tessellates = input.options.rate > 0;
+	uint64_t bytes = LIST_COUNT * sizeof(ListHead) + sizeof(FrameCounts) + 16;
+	for (const ListDesc& list : kLists)
+	{
+		const bool of_parts = list.index == LIST_SPLIT_TRIANGLES || list.index == LIST_PART_TRIANGLES || list.index == LIST_BATCHES;
+		const bool needed = of_parts                                ? tessellates
+							: list.index == LIST_MICRO_VERTICES     ? !usesSoft(input)
+							: list.index == LIST_EXPANDED_TRIANGLES ? usesIndexed(input)
+																	: true;
+		bytes += needed ? listBytes(list, capacities[list.index]) + 16 : 0;  // buffers are whole words of 16 bytes
+	}
+	if (tessellates)
+		bytes += kMostRateSteps * sizeof(RateStep) + uint64_t(capacities[LIST_PART_TRIANGLES]) * sizeof(PartPlace) + 16 +
+				 (uint64_t(capacities[LIST_PART_TRIANGLES]) / BATCH_WINDOW + 1) * sizeof(uint32_t) + 16;
+	return bytes;
 }
 
 Result<std::array<uint32_t, LIST_COUNT>> listCapacities(const PlanInput& input)
@@ -88,19 +188,7 @@ Result<std::array<uint32_t, LIST_COUNT>> listCapacities(const PlanInput& input)
 		if (capacity < list->least_capacity || capacity > mostEntries(*list))
 			return fail(ExitCode::Usage, "--capacity {}={}: must lie between {} and {}", name, capacity, list->least_capacity, mostEntries(*list));
 	}
-	std::array<uint32_t, LIST_COUNT> capacities = {};
-	for (const ListDesc& list : kLists)
-	{
-		uint64_t capacity = list.default_capacity;
-		if (const uint64_t bound = sceneBound(list, input))
-			capacity = std::min(capacity, bound);
-		const auto asked = input.options.capacities.find(std::string(list.name));
-		if (asked != input.options.capacities.end())
-			capacity = asked->second;
-		capacities[list.index] = static_cast<uint32_t>(std::max<uint64_t>(capacity, list.least_capacity));
-	}
-	capacities[LIST_BATCHES] = std::max(capacities[LIST_BATCHES], mostBatches(capacities[LIST_PART_TRIANGLES], input));
-	return capacities;
+	return input.options.lists_bytes > 0 ? capacitiesWithin(input.options.lists_bytes, input) : defaultCapacities(input);
 }
 
 }  // namespace tessera

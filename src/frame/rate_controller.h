@@ -38,4 +38,7 @@ private:
 	Attempt attempt_;
 };
 
+// Candidates of rate_search, at most: every j.
+inline constexpr uint32_t kMostRateSteps = RateController::kMostCoarsening + 1;
+
 }  // namespace tessera

@@ -43,7 +43,7 @@ struct FrameResult
 	uint32_t coarsening = 0;  // j: the granted rate is rate x 2^(j/16)
 	bool every_factor_one = false;
 	uint32_t rounds = 1;
-	uint32_t attempts = 1;  // 1: it fit at once
+	uint32_t attempts = 1;  // 1: the device found a rate that fits, or needed none; more: rounds, or packings that grew
 	FrameCountsRead counts;
 	std::vector<ListStats> lists;
 };

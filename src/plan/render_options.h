@@ -60,6 +60,7 @@ struct RenderOptions
 	uint32_t width_px = 1920;
 	uint32_t height_px = 1080;
 	std::map<std::string, uint32_t> capacities;  // by list name
+	uint64_t lists_bytes = 0;                    // memory of all lists together; 0: capacities of their own
 };
 
 }  // namespace tessera

@@ -73,6 +73,7 @@ const std::vector<std::pair<std::string, std::string>> kSamples = {
 	{ "cull", "backface" },
 	{ "max-split", "5" },
 	{ "capacity", "part_triangles=1000" },
+	{ "budget", "64MB" },
 	{ "displacement", "a.png:0.1::stone" },
 	{ "displacement-scale", "-0.7" },
 	{ "view", "wireframe" },
@@ -251,9 +252,27 @@ TEST(options, wrongValuesAreAnsweredWithRightOnes)
 	expect({ "--cluster-size", "64x132" }, { "128" });
 	expect({ "--capacity", "part_triangles" }, { "--capacity part_triangles", "NAME=COUNT" });
 	expect({ "--capacity", "part_triangles=0" }, { "--capacity part_triangles=0", "from 1 to" });
+	for (const char* budget : { "", "0", "-1MB", "64 MB", "64TB", "MB", "1e300GB", "nan" })
+		expect({ "--budget", budget }, { fmt::format("--budget {}", budget), "such as 64MB" });
 	expect({ "--table", "" }, { "--table", "FILE" });
 	for (const ListDesc& list : listDescs())
 		expect({ "--capacity", "nothing=3" }, { std::string(list.name) });
+}
+
+TEST(options, budgetsAreReadInEveryUnitAndPrintedBack)
+{
+	const std::pair<const char*, uint64_t> kBudgets[] = {
+		{ "1", 1 },       { "500B", 500 },  { "64MB", 64'000'000 },  { "64MiB", 64u << 20 }, { "1.5GiB", 3ull << 29 },
+		{ "0.5kB", 500 }, { "2KiB", 2048 }, { "3GB", 3'000'000'000 }
+	};
+	for (const auto& [text, bytes] : kBudgets)
+	{
+		const AppOptions options = parsed({ "--budget", text });
+		EXPECT_EQ(options.lists_bytes, bytes) << text;
+		EXPECT_EQ(parsed({ "--budget", printBytes(bytes) }).lists_bytes, bytes) << printBytes(bytes);
+	}
+	EXPECT_EQ(printBytes(64'000'000), "64MB");
+	EXPECT_EQ(printBytes(64u << 20), "67108864B");
 }
 
 TEST(options, nothingCrashesTheParser)

@@ -149,7 +149,7 @@ std::vector<Camera> cameras(const BuiltScene& scene)
 
 TEST(rateSteps, areTheViewsOfFramesAskedForAtThoseRates)
 {
-	const BuiltScene scene = *buildScene(*makeBuiltinScene("terrain"));
+	const BuiltScene scene = *buildScene(*makeBuiltinScene("cube"));
 	for (const Camera& camera : cameras(scene))
 		for (const uint32_t first : { 0u, 9u })
 		{
@@ -170,7 +170,7 @@ TEST(rateSteps, areTheViewsOfFramesAskedForAtThoseRates)
 
 TEST(rateSteps, endWhereEveryFactorIsOneAndNotBefore)
 {
-	const BuiltScene scene = *buildScene(*makeBuiltinScene("terrain"));
+	const BuiltScene scene = *buildScene(*makeBuiltinScene("cube"));
 	for (const Camera& camera : cameras(scene))
 		for (const double rate : { 0.01, 4.0, 300.0 })
 		{

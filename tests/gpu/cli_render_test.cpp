@@ -89,6 +89,20 @@ TEST_F(programWithDevice, aListThatIsTooSmallCoarsensAndStrictRefusesThat)
 	EXPECT_FALSE(std::filesystem::exists(scratchFolder() / "strict.json"));
 }
 
+TEST_F(programWithDevice, aBudgetIsKeptOrRefused)
+{
+	const json stats = statsOf("builtin:quad --size 96x64 --rate 0.5 --budget 300kB");
+	EXPECT_LE(stats["memory"]["lists"], 300'000u);
+	EXPECT_EQ(stats["options"]["budget"], 300'000u);
+	for (const char* command : { "render builtin:quad --budget 1kB -o small.png", "info builtin:quad --print-plan --budget 1kB" })
+	{
+		const ProgramRun run = runTessera(command);
+		EXPECT_EQ(run.exit_code, 2) << command;
+		EXPECT_NE(run.errors.find("--budget: 1000 bytes are too few"), std::string::npos) << run.errors;
+	}
+	EXPECT_FALSE(std::filesystem::exists(scratchFolder() / "small.png"));
+}
+
 TEST_F(programWithDevice, everyViewIsDrawn)
 {
 	for (const char* view :

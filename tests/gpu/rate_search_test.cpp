@@ -22,7 +22,7 @@ RenderOptions uncut(float rate, Raster raster)
 {
 	RenderOptions options = smallOptions(rate);
 	options.raster = raster;
-	options.cull = { false, false };
+	options.cull = { false, false, false };
 	return options;
 }
 
@@ -183,7 +183,7 @@ TEST_F(rateSearch, withCullingWhatIsSeenIsWholeToo)
 	expectSameAsReference(tight, "terrain");
 	RenderOptions all = options;
 	all.capacities = {};
-	all.cull = { false, false };
+	all.cull = { false, false, false };
 	all.rate = float(tight.result.rate_granted);
 	const GpuFrame unculled = drawFrame(*scene, all, camera);
 	EXPECT_LE(differingPixels(tight.picture(), unculled.picture(), 8), unculled.picture().size() / 4 / 200);
@@ -227,6 +227,52 @@ TEST_F(rateSearch, everyRoundHasTheSameRate)
 		EXPECT_NEAR(double(rounds.result.counts.micro_triangles), double(whole.result.counts.micro_triangles), 8);
 		EXPECT_LE(differingPixels(rounds.picture(), whole.picture(), 8), 20u);
 	}
+}
+
+TEST_F(rateSearch, aBudgetIsKeptAndTheFrameWithinItIsWhole)
+{
+	const auto scene = gpuScene("terrain");
+	const Camera camera = closeTo(*scene, 0.4);
+	for (const Raster raster : rasterPaths())
+	{
+		RenderOptions options = uncut(0.5f, raster);
+		uint32_t coarser = 0;
+		for (const uint64_t budget : { 30'000'000ull, 700'000ull, 320'000ull })
+		{
+			options.lists_bytes = budget;
+			GpuFrame tight = drawFrame(*scene, options, camera);
+			const std::string what = fmt::format("raster {}, {} bytes", int(raster), budget);
+			EXPECT_LE(tight.renderer->memory().lists, budget) << what;
+			EXPECT_GE(tight.result.coarsening, coarser) << what;
+			coarser = tight.result.coarsening;
+			Capacities capacities;
+			for (const ListStats& list : tight.result.lists)
+				if (list.name != "batches")
+					capacities[list.name] = list.capacity;
+			expectSmallestThatFits(tight, camera, capacities, what);
+		}
+		EXPECT_GT(coarser, 0u);
+	}
+}
+
+// Packings follow what other lists hold: they grow, at once where there is no other way, else before they are too small.
+TEST_F(rateSearch, packingsGrowAndNeverCoarsen)
+{
+	const auto scene = gpuScene("terrain");
+	GpuFrame frame = drawFrame(*scene, uncut(0.21f, drawingPaths().front()));
+	const uint64_t wanted = frame.list("micro_vertices").wanted;
+	ASSERT_GT(wanted, findList("micro_vertices")->default_capacity);
+	EXPECT_EQ(frame.result.attempts, 2u);
+	const uint32_t capacity = frame.list("micro_vertices").capacity;
+	for (double nearness = 1; nearness > 0.85; nearness *= 0.93)
+	{
+		drawAgain(frame, closeTo(*scene, nearness));
+		EXPECT_EQ(frame.result.attempts, 1u) << nearness;
+		EXPECT_EQ(frame.result.coarsening, 0u) << nearness;
+		EXPECT_GE(frame.list("micro_vertices").capacity, capacity) << nearness;
+		EXPECT_GE(frame.list("micro_vertices").peak, wanted) << "peaks outlive the list's growth";
+	}
+	EXPECT_GT(frame.list("micro_vertices").capacity, capacity);
 }
 
 // Fewer levels than are needed: nothing overflows, and all the same everything is listed.

@@ -3,6 +3,8 @@
 #include "pipeline/passes.h"
 #include "pipeline/uses.h"
 
+#include <algorithm>
+
 namespace tessera
 {
 
@@ -27,6 +29,8 @@ static constexpr Use kUses[] = {
 	{ "split_triangles", Access::ComputeWrite, &kSplits },
 	{ "part_triangles", Access::ComputeWrite },
 };
+
+constexpr uint64_t kMostWorkgroups = 1024;
 
 // Count and choose, then list.
 static uint32_t dispatches(const PlanInput&)
@@ -53,8 +57,8 @@ static void record(PassContext& pass)
 	args.lists = pass.repeat();
 	args.deciding_lists = pass.decidingLists();
 	args.split_levels = kSplits.holds(pass.input()) ? pass.input().view.split_levels : 0;
-	// Few visible clusters can keep many workgroups busy: each at its own candidate.
-	pass.dispatchLoop(args, uint64_t(pass.capacity("visible_clusters")) * args.step_count);
+	// Few visible clusters can keep many workgroups busy: each at its own candidate. No more than that, since they mostly just end.
+	pass.dispatchLoop(args, std::min<uint64_t>(kMostWorkgroups, uint64_t(pass.capacity("visible_clusters")) * args.step_count));
 }
 
 static constexpr const Condition* kNeeded[] = { &kTessellates };
