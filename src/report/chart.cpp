@@ -237,7 +237,7 @@ std::string chartStyle()
 		return css;
 	};
 	std::string css = ".plot text{font-family:system-ui,'DejaVu Sans',sans-serif;font-size:12px}.plot .heading{font-size:14px;font-weight:600}"
-					  ".plot .grid{stroke-width:1;fill:none}.plot .line{fill:none}.plot .line.front{stroke-width:7;stroke-opacity:.55;"
+					  ".plot .grid{stroke-width:1;fill:none}.plot .line{fill:none}.plot .line.front{stroke-width:15;stroke-opacity:.6;"
 					  "stroke-linejoin:round}.plot .mark{stroke-width:2}.plot .mark:hover{stroke-width:6}.plot .segment:hover{opacity:.7}";
 	css += theme("#ffffff", "#4b5057", "#1b1e22", "#e6e7e9", "#ffd166", kLight);
 	return css + "@media (prefers-color-scheme:dark){" + theme("#191c21", "#b4bac2", "#eceff2", "#30353c", "#6b5a1e", kDark) + "}";

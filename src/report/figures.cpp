@@ -1,10 +1,17 @@
 #include "report/figures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace tessera::report
 {
+
+std::string threeDigits(double value)
+{
+	return std::abs(value) >= 999.5 && std::abs(value) < 1e9 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
+}
 
 Figures figuresOf(std::span<Weighted> values)
 {

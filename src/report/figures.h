@@ -1,10 +1,14 @@
 // Largest, root mean square and 99th percentile of weighted values, and how far two such sets are apart.
 #pragma once
 #include <span>
+#include <string>
 #include <vector>
 
 namespace tessera::report
 {
+
+// Three digits, and none lost before the point: "0.0123", "4.57", "1751".
+std::string threeDigits(double value);
 
 struct Figures
 {

@@ -42,8 +42,9 @@ std::string adviceHtml(const ReportData& data)
 	{
 		std::string names;
 		for (const size_t i : paretoFront(runs, ErrorKind::SeenP99))
-			names += fmt::format("{}rate {} with {} ({:.3g} px, {:.3g} ms)", names.empty() ? "" : "; ", runs[i]->setting.rate,
-								 escaped(runs[i]->setting.raster), *errorOf(*runs[i], ErrorKind::SeenP99), runs[i]->gpu_ms.median);
+			names +=
+				fmt::format("{}rate {} with {} ({} px, {} ms)", names.empty() ? "" : "; ", runs[i]->setting.rate, escaped(runs[i]->setting.raster),
+							threeDigits(*errorOf(*runs[i], ErrorKind::SeenP99)), threeDigits(runs[i]->gpu_ms.median));
 		if (!names.empty())
 			html += fmt::format("<p class=\"quiet\">Worth having at {}x{} (nothing tried is both faster and more exact): {}.</p>",
 								runs[0]->setting.width, runs[0]->setting.height, names);

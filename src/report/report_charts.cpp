@@ -145,7 +145,7 @@ std::vector<std::string> namedPasses(const ReportData& data)
 
 Bar barOf(const Run& run, const std::string& group, const std::vector<std::string>& names)
 {
-	Bar bar = { fmt::format("{:g} px, {}", run.setting.rate, group), {}, fmt::format("{:.3g} ms", run.gpu_ms.median) };
+	Bar bar = { fmt::format("{:g} px, {}", run.setting.rate, group), {}, threeDigits(run.gpu_ms.median) + " ms" };
 	BarSegment others = { names.size(), 0, "" };
 	for (size_t i = 0; i < names.size(); ++i)
 		for (const PassFigures& pass : run.passes)

@@ -15,7 +15,7 @@ std::string exact(double value)
 
 std::string rounded(double value)
 {
-	return fmt::format("{:.3g}", value);
+	return threeDigits(value);
 }
 
 std::string grouped(uint64_t value)
@@ -106,7 +106,7 @@ std::string shownRate(const Run& run)
 }
 std::string shownQuartiles(const Run& run)
 {
-	return drawn(run) ? fmt::format("{:.3g}–{:.3g}", run.gpu_ms.lower_quartile, run.gpu_ms.upper_quartile) : "";
+	return drawn(run) ? threeDigits(run.gpu_ms.lower_quartile) + "–" + threeDigits(run.gpu_ms.upper_quartile) : "";
 }
 
 #define OF_RUN(expression) \
