@@ -1,6 +1,6 @@
 #include "app/commands.h"
 #include "app/option_text.h"
-#include "app/rate_search.h"
+#include "app/rate_for_error.h"
 #include "app/scene_load.h"
 #include "app/stats_json.h"
 #include "base/log.h"

@@ -1,4 +1,4 @@
-#include "app/rate_search.h"
+#include "app/rate_for_error.h"
 
 #include "base/log.h"
 
