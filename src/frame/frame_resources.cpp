@@ -464,9 +464,9 @@ MemoryStats FrameResources::memory() const
 	MemoryStats memory;
 	for (const auto& [name, held] : buffers_)
 	{
-		if (findList(name) || name == "heads" || name == "counts" || name == "rate_steps" || name == "part_places")
+		if (findList(name) || name == "heads" || name == "counts" || name == "rate_steps" || name == "part_places" || name == "window_seen")
 			memory.lists += held.bytes();
-		else if (name == "picture" || name == "visibility_buffer" || name == "kept_visibility")
+		else if (name == "picture" || name == "visibility_buffer" || name == "kept_visibility" || name == "depth_pyramid")
 			memory.images += held.bytes();
 		else
 			memory.geometry += held.bytes();

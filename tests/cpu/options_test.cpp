@@ -200,14 +200,15 @@ TEST(options, cullingTakesOnOffAndLists)
 {
 	const auto kinds = [](const char* text) {
 		const CullOptions cull = parsed({ "--cull", text }).cull;
-		return (cull.frustum ? 1 : 0) + (cull.backface ? 2 : 0);
+		return (cull.frustum ? 1 : 0) + (cull.backface ? 2 : 0) + (cull.occlusion ? 4 : 0);
 	};
-	EXPECT_EQ(kinds("on"), 3);
+	EXPECT_EQ(kinds("on"), 7);
 	EXPECT_EQ(kinds("off"), 0);
 	EXPECT_EQ(kinds("frustum"), 1);
 	EXPECT_EQ(kinds("backface"), 2);
 	EXPECT_EQ(kinds("backface,frustum"), 3);
-	for (const char* text : { "", "On", "frustum,", "occlusion", "on,off" })
+	EXPECT_EQ(kinds("occlusion"), 4);
+	for (const char* text : { "", "On", "frustum,", "occluded", "on,off" })
 		EXPECT_NE(refusal({ "render", "--cull", text }).find("frustum,backface"), std::string::npos) << text;
 }
 

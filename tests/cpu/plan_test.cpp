@@ -152,7 +152,7 @@ void forEveryInput(const std::function<void(const PlanInput&)>& visit)
 		input.options.rate = bit(6) ? 4.0f : 0.0f;
 		input.view.factors_above_one = bit(7);
 		input.view.split_levels = bit(8) ? 2 : 0;
-		input.options.cull = { bit(9), bit(9) };
+		input.options.cull = { bit(9), bit(9), bit(9) };
 		input.scene.has_color_textures = bit(10);
 		input.options.smooth_normals = bit(11);
 		input.scene.directions_are_normals = bit(12);
@@ -249,7 +249,7 @@ TEST(framePlan, splittingIsPlannedOnlyWhereItCanOccur)
 TEST(framePlan, withoutCullingNoBoundsAreHeld)
 {
 	PlanInput input = fullInput();
-	input.options.cull = { false, false };
+	input.options.cull = { false, false, false };
 	const FramePlan plan = planOf(input);
 	expectLeftOut(plan, { "cluster_bounds", "mesh_bounds" });
 	EXPECT_FALSE(featureOn(plan, "HAS_CULLING"));

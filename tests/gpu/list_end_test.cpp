@@ -96,7 +96,7 @@ TEST_F(listEnd, nothingIsWrittenBehindTheEndOfAnyList)
 	{
 		RenderOptions options = smallOptions(5);
 		options.raster = path;
-		options.cull = { false, false };
+		options.cull = { false, false, false };
 		expectUntouchedBehindEveryEnd(drawFrame(*boulders, options), fmt::format("boulders, raster {}", int(path)));
 		options.rate = 2;
 		const GpuFrame split = drawFrame(*cube, options, closeTo(*cube, 0.5));

@@ -188,7 +188,7 @@ TEST_F(raster, cullingChangesNoPixel)
 				RenderOptions options = optionsFor(6, path);
 				const Camera camera = closeTo(*scene, nearness);
 				const GpuFrame culled = drawFrame(*scene, options, camera);
-				options.cull = { false, false };
+				options.cull = { false, false, false };
 				const GpuFrame whole = drawFrame(*scene, options, camera);
 				const std::string what = fmt::format("{} at {} of the way, raster {}", name, nearness, int(path));
 				ASSERT_EQ(culled.result.rate_granted, whole.result.rate_granted) << what;
@@ -213,9 +213,9 @@ TEST_F(raster, everyKindOfCullingAloneChangesNoPixelFromWithin)
 		Camera camera = squareCamera(middle, middle + way * reach);
 		camera.near_world = 0;
 		RenderOptions options = smallOptions(8);
-		options.cull = { false, false };
+		options.cull = { false, false, false };
 		const GpuFrame whole = drawFrame(*scene, options, camera);
-		for (const CullOptions cull : { CullOptions{ true, false }, CullOptions{ false, true } })
+		for (const CullOptions cull : { CullOptions{ true, false, false }, CullOptions{ false, true, false }, CullOptions{ false, false, true } })
 		{
 			options.cull = cull;
 			const GpuFrame culled = drawFrame(*scene, options, camera);
@@ -246,9 +246,9 @@ TEST_F(raster, clustersThatShowTheirBackAreCulledAndNoOthers)
 	{
 		const Camera camera = squareCamera(eye, dvec3(0.2, 0.3, 0.1));
 		RenderOptions options = smallOptions(10);
-		options.cull = { false, true };
+		options.cull = { false, true, false };
 		const GpuFrame culled = drawFrame(single, options, camera), kept = drawFrame(twofold, options, camera);
-		options.cull = { false, false };
+		options.cull = { false, false, false };
 		const GpuFrame whole = drawFrame(single, options, camera);
 		const VisibilityDifference difference = compareVisibility(visibilityOf(culled), visibilityOf(whole), 160);
 		EXPECT_EQ(difference.others, 0u) << difference.first;
@@ -284,9 +284,9 @@ TEST_F(raster, bumpySheetsLoseNothingToBackfaceCulling)
 		addPlacedMesh(sheet, { primitive });
 		const GpuScene scene(sheet, defaultTable(), { 24, 16 });
 		RenderOptions options = smallOptions(0);
-		options.cull = { false, true };
+		options.cull = { false, true, false };
 		GpuFrame culled = drawFrame(scene, options);
-		options.cull = { false, false };
+		options.cull = { false, false, false };
 		GpuFrame whole = drawFrame(scene, options);
 		for (int i = 0; i < 60; ++i)
 		{
@@ -314,7 +314,7 @@ TEST_F(raster, peaksInNarrowViewsAreNotLostToCulling)
 		RenderOptions options = smallOptions(12);
 		options.displacement_scale = 4;
 		GpuFrame culled = drawFrame(*scene, options);
-		options.cull = { false, false };
+		options.cull = { false, false, false };
 		GpuFrame whole = drawFrame(*scene, options);
 		options.rate = 2;
 		const GpuFrame fine = drawFrame(*scene, options);

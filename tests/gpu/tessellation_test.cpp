@@ -17,7 +17,7 @@ using tessellation = GpuTest;
 RenderOptions uncut(float rate)
 {
 	RenderOptions options = smallOptions(rate);
-	options.cull = { false, false };
+	options.cull = { false, false, false };
 	return options;
 }
 
@@ -193,7 +193,7 @@ TEST_F(tessellation, visibleClustersUnderCullingAreAllThatTheReferenceKeeps)
 		const auto scene = gpuScene(name);
 		const Camera camera = closeTo(*scene, 0.5);
 		RenderOptions options = smallOptions(6);
-		options.cull = { true, false };
+		options.cull = { true, false, false };
 		const GpuFrame frame = drawFrame(*scene, options, camera);
 		expectSameAsReference(frame, name);
 		// Rounding may differ where a box touches the frustum's side; nearly all must agree.
