@@ -297,7 +297,7 @@ Status FrameResources::make(std::string_view name, const PlanInput& input)
 		return allocate(name, kMostRateSteps * sizeof(RateStep));
 	if (name == "counts")
 		return allocate(name, sizeof(FrameCounts));
-	if (name == "part_places" || name == "window_seen")
+	if (name == "part_places")
 		return allocate(name, uint64_t(capacities_[LIST_PART_TRIANGLES]) * sizeof(PartPlace));
 	if (name == "window_seen")
 		return allocate(name, (uint64_t(capacities_[LIST_PART_TRIANGLES]) / BATCH_WINDOW + 1) * sizeof(uint32_t));
@@ -380,13 +380,15 @@ Result<bool> FrameResources::growDump()
 	return true;
 }
 
-void FrameResources::writeHistory(const View& view)
+void FrameResources::writeHistory(const View& view, bool makes_pyramid)
 {
 	if (!has("frame_history"))
 		return;
 	const uint64_t pyramids = address("depth_pyramid"), bytes = buffer("depth_pyramid").bytes() / 2;
 	FrameHistory history = {};
-	history.has_last = view_.width_px == view.width_px && view_.height_px == view.height_px ? 1 : 0;
+	had_history_ = has_pyramid_ && view_.width_px == view.width_px && view_.height_px == view.height_px;
+	has_pyramid_ = makes_pyramid;
+	history.has_last = had_history_ ? 1 : 0;
 	history.last_view = view_;
 	history.last_pyramid = pyramids + (pyramid_is_second_ ? bytes : 0);
 	history.pyramid = pyramids + (pyramid_is_second_ ? 0 : bytes);
@@ -394,9 +396,9 @@ void FrameResources::writeHistory(const View& view)
 	vkCmdUpdateBuffer(commands_->buffer(), buffer("frame_history").handle(), 0, sizeof(history), &history);
 }
 
-Status FrameResources::writeView(const View& view, uint32_t round, std::span<const RateStep> steps)
+Status FrameResources::writeView(const View& view, uint32_t round, bool makes_pyramid, std::span<const RateStep> steps)
 {
-	writeHistory(view);
+	writeHistory(view, makes_pyramid);
 	round_ = round;
 	view_ = view;
 	vkCmdUpdateBuffer(commands_->buffer(), buffer("view").handle(), 0, sizeof(View), &view);

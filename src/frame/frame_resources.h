@@ -35,8 +35,8 @@ public:
 	// Makes micro_dump, where it is kept, hold every item of the last submitted frame. True when it was too small: the frame
 	// must be drawn again. Errors: BadInput (out of memory).
 	Result<bool> growDump();
-	// Records the uploads of a round. `steps`: candidates of rate_search, empty where the plan has none.
-	Status writeView(const View& view, uint32_t round, std::span<const RateStep> steps = {});
+	// Records the uploads of a round. `makes_pyramid`: it writes a depth pyramid. `steps`: candidates of rate_search, empty where the plan has none.
+	Status writeView(const View& view, uint32_t round, bool makes_pyramid, std::span<const RateStep> steps = {});
 	// Records that nothing has been seen yet: after rounds that were not drawn to the end.
 	void clearVisibility();
 
@@ -48,6 +48,8 @@ public:
 	uint32_t capacity(std::string_view list) const;
 	uint32_t round() const { return round_; }
 	const View& view() const { return view_; }
+	// Whether the last frame could look at the depth pyramid of the one before it.
+	bool hadHistory() const { return had_history_; }
 	uint32_t rateStepCount() const { return static_cast<uint32_t>(steps_.size()); }
 	// Bit per list whose capacity limits the rate: all but batches, which follow from parts, and those that can grow.
 	uint32_t decidingLists(const PlanInput& input) const;
@@ -67,7 +69,7 @@ public:
 private:
 	FrameResources(Device& device, const BuiltScene& scene, const TessellationTable& table) : device_(device), scene_(scene), table_(table) {}
 	// Which of the two pyramids is this frame's, and what the frame before it saw.
-	void writeHistory(const View& view);
+	void writeHistory(const View& view, bool makes_pyramid);
 	Status make(std::string_view name, const PlanInput& input);
 	Status upload(std::string_view name, std::span<const std::byte> bytes);
 	Status allocate(std::string_view name, uint64_t bytes);
@@ -95,6 +97,8 @@ private:
 	uint32_t round_ = 0;
 	View view_ = {};
 	bool pyramid_is_second_ = false;  // where the last frame's depth pyramid lies
+	bool has_pyramid_ = false;        // the last frame made one
+	bool had_history_ = false;        // and the frame before it had too
 	std::vector<RateStep> steps_;     // as uploaded
 	uint32_t fixed_lists_ = 0;        // bit per list that grows no more
 

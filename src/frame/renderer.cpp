@@ -1,6 +1,7 @@
 #include "frame/renderer.h"
 
 #include "base/check.h"
+#include "frame/occlusion_controller.h"
 #include "frame/pass_runner.h"
 #include "frame/rate_controller.h"
 #include "frame/rate_steps.h"
@@ -74,8 +75,10 @@ public:
 			result.attempts = attempts;
 			if (grew_)
 				continue;
-			if (controller_.accept(outcome_))
-				return result;
+			if (!controller_.accept(outcome_))
+				continue;
+			judgeOcclusion(result);
+			return result;
 		}
 	}
 
@@ -132,6 +135,7 @@ private:
 		input_.view.factors_above_one = bound.above_one;
 		input_.view.split_levels = bound.split_levels > 0 || levels_needed_ > 0 ? std::max(bound.split_levels, levels_needed_) : 0;
 		input_.view.rounds = attempt.rounds;
+		input_.view.looks_for_hidden = occlusion_.looks();
 		input_.view.rate_px = request.rate_px;
 		steps_.clear();
 		if (kTessellates.holds(input_))
@@ -180,7 +184,7 @@ private:
 	{
 		CommandRecorder& commands = resources_->commands();
 		TRY(commands.begin());
-		TRY(resources_->writeView(view_, round, steps_));
+		TRY(resources_->writeView(view_, round, plan_.has("depth_pyramid"), steps_));
 		if (round == 0 && rounds_left_over_)
 			resources_->clearVisibility();
 		rounds_left_over_ = round + 1 < attempt.rounds;
@@ -231,6 +235,22 @@ private:
 		outcome_.fits = false;
 		// Without a rate that fits the lists are left overfull as they were; listed again they fit as they were counted.
 		outcome_.rate_can_help = counts.listed_again != 0 && !clusters;
+	}
+
+	// Did looking for what is hidden pay in this frame?
+	void judgeOcclusion(const FrameResult& result)
+	{
+		const auto took = [&](std::string_view pass) {
+			const auto found = std::find_if(result.passes.begin(), result.passes.end(), [&](const PassTime& time) { return time.name == pass; });
+			return found == result.passes.end() ? 0 : found->gpu_ms;
+		};
+		OcclusionOutcome outcome;
+		outcome.parts = result.counts.part_triangles;
+		outcome.left_out = result.counts.hidden_parts - std::min(result.counts.hidden_parts, result.counts.revealed_parts);
+		outcome.raster_ms = took("raster_micro");
+		outcome.looking_ms = took("depth_pyramid") + took("retest_parts") + took("raster_revealed");
+		const bool looked = result.rounds == 1 && plan_.has("depth_pyramid") && resources_->hadHistory();
+		occlusion_.endFrame(looked ? &outcome : nullptr);
 	}
 
 	// More split levels than were planned for: rate_search has listed everything without them, and the next frame plans more. Where no
@@ -293,6 +313,7 @@ private:
 	std::unique_ptr<FrameResources> resources_;
 	std::unique_ptr<PassRunner> runner_;
 	RateController controller_;
+	OcclusionController occlusion_;
 	AttemptOutcome outcome_;
 	Camera last_camera_ = {};
 	RoundReader after_round_;

@@ -46,9 +46,11 @@ inline constexpr Condition kCulls = { [](const PlanInput& input) { return input.
 inline constexpr Condition kFrustumCulls = { [](const PlanInput& input) { return input.options.cull.frustum; }, "frustum culling is off" };
 inline constexpr Condition kSoft = { [](const PlanInput& input) { return usesSoft(input) && input.device.buffer_atomics_64; },
 									 "another producer of visibility is chosen, or the device lacks 64-bit buffer atomics" };
-inline constexpr Condition kOcclusionCulls = { [](const PlanInput& input) { return input.options.cull.occlusion && kSoft.holds(input); },
-											   "occlusion culling is off, or attachments hold depth" };
-inline constexpr Condition kPartsMayHide = { [](const PlanInput& input) { return kOcclusionCulls.holds(input) && kTessellates.holds(input); },
+inline constexpr Condition kMayHide = { [](const PlanInput& input) { return input.options.cull.occlusion && kSoft.holds(input); },
+										"occlusion culling is off, or attachments hold depth" };
+inline constexpr Condition kLooksForHidden = { [](const PlanInput& input) { return kMayHide.holds(input) && input.view.looks_for_hidden; },
+											   "occlusion culling is off, attachments hold depth, or the last frames hid too little for its cost" };
+inline constexpr Condition kPartsMayHide = { [](const PlanInput& input) { return kMayHide.holds(input) && kTessellates.holds(input); },
 											 "occlusion culling is off, or nothing is tessellated" };
 inline constexpr Condition kDisplacedPartsMayHide = { [](const PlanInput& input) { return kPartsMayHide.holds(input) && kDisplaced.holds(input); },
 													  "no part is displaced, or none is tested for being hidden" };

@@ -51,6 +51,7 @@ struct ViewTraits
 	bool factors_above_one = true;  // false: no edge of the scene can reach factor 2 from here
 	uint32_t split_levels = 0;      // most levels of triangle_split that can occur; 0: no factor above the table
 	double rate_px = 0;             // granted rate
+	bool looks_for_hidden = true;   // false: the last frames hid too little to pay for the passes that look for it
 	uint32_t rounds = 1;            // a frame in more than one round draws its clusters in turns (C2)
 };
 

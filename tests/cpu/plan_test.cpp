@@ -255,6 +255,25 @@ TEST(framePlan, withoutCullingNoBoundsAreHeld)
 	EXPECT_FALSE(featureOn(plan, "HAS_CULLING"));
 }
 
+TEST(framePlan, framesThatDoNotLookForWhatIsHiddenDropThosePassesAndRecompileNothing)
+{
+	PlanInput input = fullInput();
+	input.options.raster = Raster::Soft;
+	input.device.buffer_atomics_64 = true;
+	EXPECT_TRUE(planOf(input).has("depth_pyramid"));
+	input.view.looks_for_hidden = false;
+	const FramePlan resting = planOf(input);
+	expectDropped(resting, { "depth_pyramid", "retest_parts", "raster_revealed" });
+	EXPECT_TRUE(resting.has("raster_micro"));
+	EXPECT_TRUE(featureOn(resting, "HAS_OCCLUSION"));
+	EXPECT_NE(resting.reason("depth_pyramid").find("hid too little"), std::string::npos);
+	input.options.cull.occlusion = false;
+	const FramePlan without = planOf(input);
+	expectDropped(without, { "depth_pyramid", "retest_parts", "raster_revealed" });
+	expectLeftOut(without, { "depth_pyramid", "frame_history", "window_seen", "triangle_reaches" });
+	EXPECT_FALSE(featureOn(without, "HAS_OCCLUSION"));
+}
+
 TEST(framePlan, withoutTexturesAndColorsTheirCodeIsCompiledOut)
 {
 	PlanInput input = fullInput();

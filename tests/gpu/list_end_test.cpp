@@ -45,7 +45,7 @@ void runWithCapacity(const GpuFrame& frame, const ListDesc& list, uint32_t capac
 	vkCmdFillBuffer(commands, r.buffer(list.name).handle(), 0, VK_WHOLE_SIZE, kUntouched);
 	vkCmdUpdateBuffer(commands, r.buffer("heads").handle(), r.headOffset(list.name) + offsetof(ListHead, capacity), sizeof capacity, &capacity);
 	fullBarrier(commands);
-	ASSERT_FINE(r.writeView(frame.view(), 0));
+	ASSERT_FINE(r.writeView(frame.view(), 0, false));
 	ASSERT_FINE((*runner)->record(plan, input));
 	r.recordCountsReadback(commands);
 	ASSERT_FINE(r.commands().submitAndWait());

@@ -149,7 +149,8 @@ TEST_F(raster, everyPathSeesTheSameMicroTriangles)
 				const VisibilityDifference difference = compareVisibility(visibilityOf(first), visibilityOf(other), 160, 2e-5);
 				EXPECT_EQ(difference.others, 0u) << what << ": " << difference.first;
 				EXPECT_LE(difference.ties, difference.covered / 500) << what;
-				EXPECT_LE(differingPixels(first.picture(), other.picture()), difference.ties) << what;
+				// Depth, which shading starts from, may differ in its last bits.
+				EXPECT_LE(differingPixels(first.picture(), other.picture(), 2), difference.ties) << what;
 			}
 		}
 }

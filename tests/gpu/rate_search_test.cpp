@@ -298,7 +298,7 @@ TEST_F(rateSearch, levelsThatWereNotPlannedLoseNothing)
 	request.rate_px = options.rate;
 	const auto steps = rateSteps(camera, frame.view(), request, 0, 1e6, 11, options.max_split);
 	ASSERT_TRUE((*resources)->commands().begin().has_value());
-	ASSERT_TRUE((*resources)->writeView(frame.view(), 0, steps).has_value());
+	ASSERT_TRUE((*resources)->writeView(frame.view(), 0, false, steps).has_value());
 	ASSERT_TRUE((*runner)->record(*plan, input).has_value());
 	(*resources)->recordCountsReadback((*resources)->commands().buffer());
 	ASSERT_TRUE((*resources)->commands().submitAndWait().has_value());

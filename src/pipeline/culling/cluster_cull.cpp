@@ -7,8 +7,8 @@ namespace tessera
 {
 
 static constexpr Use kUses[] = {
-	{ "frame_history", Access::ComputeRead, &kOcclusionCulls },
-	{ "depth_pyramid", Access::ComputeRead, &kOcclusionCulls },
+	{ "frame_history", Access::ComputeRead, &kMayHide },
+	{ "depth_pyramid", Access::ComputeRead, &kMayHide },
 	{ "cluster_groups", Access::ComputeRead },
 	{ "view", Access::ComputeRead },
 	{ "instances", Access::ComputeRead },

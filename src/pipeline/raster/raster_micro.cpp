@@ -39,7 +39,7 @@ static void recordSecond(PassContext& pass)
 }
 
 static constexpr const Condition* kNeeded[] = { &kSoft };
-static constexpr const Condition* kSecondNeeded[] = { &kOcclusionCulls };
+static constexpr const Condition* kSecondNeeded[] = { &kLooksForHidden };
 static constexpr std::string_view kShaders[] = { "raster/raster_micro.comp" };
 
 const PassDesc kRasterMicro = { "raster_micro", kUses, kNeeded, kShaders, nullptr, record };

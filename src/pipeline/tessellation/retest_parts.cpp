@@ -37,7 +37,7 @@ static void record(PassContext& pass)
 	pass.dispatchLoop(args, most, BATCH_WINDOW);
 }
 
-static constexpr const Condition* kNeeded[] = { &kOcclusionCulls };
+static constexpr const Condition* kNeeded[] = { &kLooksForHidden };
 static constexpr std::string_view kShaders[] = { "tessellation/batch_parts.comp" };
 
 const PassDesc kRetestParts = { "retest_parts", kUses, kNeeded, kShaders, nullptr, record };
