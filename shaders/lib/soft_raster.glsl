@@ -197,6 +197,16 @@ void rasterWide(VisibilityRef target, ScreenVertex a, ScreenVertex b, ScreenVert
 		}
 }
 
+// How far a point lies inside the sides of the view; negative outside, whatever the sign of w.
+vec4 insideSides(vec4 clip) { return vec4(clip.w + clip.x, clip.w - clip.x, clip.w + clip.y, clip.w - clip.y); }
+
+bool isBeyondOneSide(vec4 a, vec4 b, vec4 c)
+{
+	vec4 sides = max(insideSides(a), max(insideSides(b), insideSides(c)));
+	float before_near = max(a.w - a.z, max(b.w - b.z, c.w - c.z));
+	return any(lessThan(sides, vec4(0.0))) || before_near < 0.0;
+}
+
 void leaveWide(uint triangle) { raster_wide[atomicAdd(raster_wide_count, 1u)] = triangle; }
 
 // One lane takes triangle `triangle` of its workgroup: does it alone when it is small, leaves it to finishRaster otherwise.
@@ -205,7 +215,8 @@ void rasterTriangle(VisibilityRef target, uint triangle, uvec3 corners, uint pay
 	uvec4 stored_a = raster_screen[corners.x], stored_b = raster_screen[corners.y], stored_c = raster_screen[corners.z];
 	if (!allInside(stored_a, stored_b, stored_c))
 	{
-		leaveWide(triangle);
+		if (!isBeyondOneSide(raster_clip[corners.x], raster_clip[corners.y], raster_clip[corners.z]))
+			leaveWide(triangle);
 		return;
 	}
 	ScreenVertex a = screenVertex(stored_a), b = screenVertex(stored_b), c = screenVertex(stored_c);
