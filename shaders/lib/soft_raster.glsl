@@ -23,11 +23,11 @@ struct ScreenVertex
 	float depth;
 };
 
-shared vec4 raster_clip[MAX_RASTER_VERTICES];
-// Screen position, depth, and 1 when the vertex lies before the near plane and inside the guard band.
-shared uvec4 raster_screen[MAX_RASTER_VERTICES];
-shared uint raster_wide[MAX_RASTER_TRIANGLES];  // triangles that one lane left to all
-shared uint raster_wide_count;
+// What is shared decides how many workgroups are resident, so vertices are held once. All inside the guard band: screen
+// position and depth. Else, which is rare: clip coordinates, and every triangle places its corners itself.
+shared uvec4 raster_vertices[MAX_RASTER_VERTICES];
+shared uint raster_has_outside;
+shared uint raster_wide[MAX_RASTER_TRIANGLES / 32u];  // bits: triangles that one lane left to all
 shared vec4 raster_polygon[2][9];
 shared uint raster_polygon_size;
 
@@ -62,27 +62,52 @@ ScreenVertex toScreen(vec4 clip, View view)
 	return ScreenVertex(ivec2(floor(vec2(x_px, y_px) + 0.5)), depth);
 }
 
+// Ends with a barrier.
 void beginRaster()
 {
+	for (uint i = gl_LocalInvocationIndex; i < MAX_RASTER_TRIANGLES / 32u; i += gl_WorkGroupSize.x)
+		raster_wide[i] = 0u;
 	if (gl_LocalInvocationIndex == 0u)
-		raster_wide_count = 0u;
+		raster_has_outside = 0u;
+	barrier();
 }
 
 void storeRasterVertex(uint index, vec4 clip, View view)
 {
-	uvec4 stored = uvec4(0u);
-	if (insideGuard(clip, view))
-	{
-		ScreenVertex screen = toScreen(clip, view);
-		stored = uvec4(uvec2(screen.position), floatBitsToUint(screen.depth), 1u);
-	}
-	raster_clip[index] = clip;
-	raster_screen[index] = stored;
+	raster_vertices[index] = floatBitsToUint(clip);
+	if (!insideGuard(clip, view))
+		raster_has_outside = 1u;
 }
 
-bool allInside(uvec4 a, uvec4 b, uvec4 c) { return (a.w & b.w & c.w) != 0u; }
+// Places all `count` vertices on screen where all are inside; each lane those it stored. Begins and ends with a barrier.
+void placeRasterVertices(uint count, View view)
+{
+	barrier();
+	if (raster_has_outside == 0u)
+		for (uint v = gl_LocalInvocationIndex; v < count; v += gl_WorkGroupSize.x)
+		{
+			ScreenVertex screen = toScreen(uintBitsToFloat(raster_vertices[v]), view);
+			raster_vertices[v] = uvec4(uvec2(screen.position), floatBitsToUint(screen.depth), 0u);
+		}
+	barrier();
+}
 
-ScreenVertex screenVertex(uvec4 stored) { return ScreenVertex(ivec2(stored.xy), uintBitsToFloat(stored.z)); }
+// A vertex that is inside the guard band.
+ScreenVertex screenVertex(uint index, View view)
+{
+	uvec4 stored = raster_vertices[index];
+	if (raster_has_outside != 0u)
+		return toScreen(uintBitsToFloat(stored), view);
+	return ScreenVertex(ivec2(stored.xy), uintBitsToFloat(stored.z));
+}
+
+vec4 clipVertex(uint index) { return uintBitsToFloat(raster_vertices[index]); }
+
+bool allInside(uvec3 corners, View view)
+{
+	return raster_has_outside == 0u || (insideGuard(clipVertex(corners.x), view) && insideGuard(clipVertex(corners.y), view) &&
+	                                    insideGuard(clipVertex(corners.z), view));
+}
 
 void writeVisibility(VisibilityRef target, ivec2 pixel, float depth, uint payload, View view)
 {
@@ -207,19 +232,18 @@ bool isBeyondOneSide(vec4 a, vec4 b, vec4 c)
 	return any(lessThan(sides, vec4(0.0))) || before_near < 0.0;
 }
 
-void leaveWide(uint triangle) { raster_wide[atomicAdd(raster_wide_count, 1u)] = triangle; }
+void leaveWide(uint triangle) { atomicOr(raster_wide[triangle >> 5], 1u << (triangle & 31u)); }
 
 // One lane takes triangle `triangle` of its workgroup: does it alone when it is small, leaves it to finishRaster otherwise.
 void rasterTriangle(VisibilityRef target, uint triangle, uvec3 corners, uint payload, bool two_sided, View view)
 {
-	uvec4 stored_a = raster_screen[corners.x], stored_b = raster_screen[corners.y], stored_c = raster_screen[corners.z];
-	if (!allInside(stored_a, stored_b, stored_c))
+	if (!allInside(corners, view))
 	{
-		if (!isBeyondOneSide(raster_clip[corners.x], raster_clip[corners.y], raster_clip[corners.z]))
+		if (!isBeyondOneSide(clipVertex(corners.x), clipVertex(corners.y), clipVertex(corners.z)))
 			leaveWide(triangle);
 		return;
 	}
-	ScreenVertex a = screenVertex(stored_a), b = screenVertex(stored_b), c = screenVertex(stored_c);
+	ScreenVertex a = screenVertex(corners.x, view), b = screenVertex(corners.y, view), c = screenVertex(corners.z, view);
 	PixelBox box = pixelBox(a.position, b.position, c.position, view);
 	if (any(greaterThan(box.low, box.high)))
 		return;
@@ -299,14 +323,13 @@ void rasterWideCorners(VisibilityRef target, ScreenVertex a, ScreenVertex b, Scr
 // The whole workgroup does one triangle that a single lane left.
 void rasterLeft(VisibilityRef target, uvec3 corners, uint payload, bool two_sided, View view)
 {
-	uvec4 a = raster_screen[corners.x], b = raster_screen[corners.y], c = raster_screen[corners.z];
-	if (allInside(a, b, c))
+	if (allInside(corners, view))
 	{
-		rasterWideCorners(target, screenVertex(a), screenVertex(b), screenVertex(c), payload, two_sided, view);
+		rasterWideCorners(target, screenVertex(corners.x, view), screenVertex(corners.y, view), screenVertex(corners.z, view), payload, two_sided, view);
 		return;
 	}
 	if (gl_LocalInvocationIndex == 0u)
-		clipPolygon(raster_clip[corners.x], raster_clip[corners.y], raster_clip[corners.z], view);
+		clipPolygon(clipVertex(corners.x), clipVertex(corners.y), clipVertex(corners.z), view);
 	barrier();
 	// Five planes: the clipped polygon lies in the second array.
 	for (uint corner = 2u; corner < raster_polygon_size; ++corner)

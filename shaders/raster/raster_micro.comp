@@ -30,7 +30,7 @@ void rasterItem(WorkItem item, View view)
 	beginRaster();
 	for (uint v = gl_LocalInvocationIndex; v < item.vertex_count; v += gl_WorkGroupSize.x)
 		storeRasterVertex(v, itemVertex(args.inputs, item, v), view);
-	barrier();
+	placeRasterVertices(item.vertex_count, view);
 	VisibilityRef target = VisibilityRef(args.visibility);
 	for (uint t = gl_LocalInvocationIndex; t < item.triangle_count; t += gl_WorkGroupSize.x)
 	{
@@ -38,11 +38,13 @@ void rasterItem(WorkItem item, View view)
 		rasterTriangle(target, t, triangle.vertices, triangle.payload, isTwoSided(item, t), view);
 	}
 	barrier();
-	for (uint i = 0u; i < raster_wide_count; ++i)
-	{
-		MicroTriangle triangle = itemTriangle(args.inputs, item, raster_wide[i]);
-		rasterLeft(target, triangle.vertices, triangle.payload, isTwoSided(item, raster_wide[i]), view);
-	}
+	for (uint word = 0u; word < MAX_RASTER_TRIANGLES / 32u; ++word)
+		for (uint left = raster_wide[word]; left != 0u; left &= left - 1u)
+		{
+			uint t = 32u * word + uint(findLSB(left));
+			MicroTriangle triangle = itemTriangle(args.inputs, item, t);
+			rasterLeft(target, triangle.vertices, triangle.payload, isTwoSided(item, t), view);
+		}
 	barrier();
 }
 
