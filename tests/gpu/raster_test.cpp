@@ -150,7 +150,7 @@ TEST_F(raster, everyPathSeesTheSameMicroTriangles)
 				EXPECT_EQ(difference.others, 0u) << what << ": " << difference.first;
 				EXPECT_LE(difference.ties, difference.covered / 500) << what;
 				// Depth, which shading starts from, may differ in its last bits.
-				EXPECT_LE(differingPixels(first.picture(), other.picture(), 2), difference.ties) << what;
+				EXPECT_LE(differingPixels(first.picture(), other.picture(), 1), difference.ties) << what;
 			}
 		}
 }
