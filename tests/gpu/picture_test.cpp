@@ -6,6 +6,7 @@
 
 #include <fstream>
 #include <numbers>
+#include <set>
 #include <sstream>
 
 namespace tessera::test
@@ -391,6 +392,26 @@ std::vector<uint8_t> storedPicture(const std::filesystem::path& path)
 }
 
 }  // namespace
+
+// The place on the base triangle comes from depth alone: as well when one micro-triangle covers half of the picture as when each is a pixel.
+TEST_F(picture, coloursAcrossATriangleDoNotDependOnHowItIsCut)
+{
+	ImportedScene square = squareScene();
+	square.meshes[0].primitives[0].colors = { vec4(1, 0, 0, 1), vec4(0, 1, 0, 1), vec4(0, 0, 1, 1), vec4(1, 1, 1, 1) };
+	const GpuScene scene(square);
+	for (const dvec3 eye : { dvec3(0, 0, 0.6), dvec3(0.9, -0.4, 0.5) })
+	{
+		const Camera camera = squareCamera(eye, dvec3(0));
+		const GpuFrame whole = drawFrame(scene, smallOptions(0), camera), cut = drawFrame(scene, smallOptions(2), camera);
+		ASSERT_GT(cut.result.counts.micro_triangles, 100 * whole.result.counts.micro_triangles);
+		EXPECT_EQ(differingPixels(whole.picture(), cut.picture(), 1), 0u);
+		std::set<uint32_t> colours;
+		const std::vector<uint8_t> texels = whole.picture();
+		for (size_t i = 0; i < texels.size(); i += 4)
+			colours.insert(texels[i] / 16u | texels[i + 1] / 16u << 8 | texels[i + 2] / 16u << 16);
+		EXPECT_GT(colours.size(), 100u) << "the corners' colours are not interpolated";
+	}
+}
 
 // TESSERA_WRITE_GOLDEN=FOLDER writes the pictures there instead: look at them before they replace the stored ones.
 TEST_F(picture, storedPicturesAreMatched)
