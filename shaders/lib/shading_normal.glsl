@@ -58,13 +58,7 @@ HeightSlope levelSlope(HeightMap map, uint first, vec2 folded, uint level)
 // Displacement, and its change per unit of texture coordinate, blended between two mips.
 HeightSlope displacementSlope(Surface surface, uint map_index, vec2 uv, float level)
 {
-	HeightMap map;
-	map.texels = HEIGHT_MAP(surface, map_index, texels);
-	map.width = HEIGHT_MAP(surface, map_index, width);
-	map.height = HEIGHT_MAP(surface, map_index, height);
-	map.format = HEIGHT_MAP(surface, map_index, format);
-	map.wrap_u = HEIGHT_MAP(surface, map_index, wrap_u);
-	map.wrap_v = HEIGHT_MAP(surface, map_index, wrap_v);
+	HeightMap map = heightMapHead(surface, map_index);
 	vec2 folded = vec2(foldCoordinate(uv.x, map.wrap_u), foldCoordinate(uv.y, map.wrap_v));
 	uint fine = uint(level);
 	HeightSlope result = levelSlope(map, HEIGHT_MAP(surface, map_index, level_first[fine]), folded, fine);

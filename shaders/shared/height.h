@@ -123,8 +123,8 @@ SHARED_FN precise float heightLevel(float footprint_squared, uint level_count)
 	return min(level, float(level_count - 1u));
 }
 
-// Height at a texture coordinate: two mips blended linearly. `map_index` into Surface.height_maps, `level` from heightLevel.
-SHARED_FN precise float heightAt(Surface surface, uint map_index, vec2 uv, float level)
+// What reading a level needs of a height map. Not its table of levels: an array copied whole to be indexed once costs registers.
+SHARED_FN HeightMap heightMapHead(Surface surface, uint map_index)
 {
 	HeightMap map;
 	map.texels = HEIGHT_MAP(surface, map_index, texels);
@@ -133,7 +133,13 @@ SHARED_FN precise float heightAt(Surface surface, uint map_index, vec2 uv, float
 	map.format = HEIGHT_MAP(surface, map_index, format);
 	map.wrap_u = HEIGHT_MAP(surface, map_index, wrap_u);
 	map.wrap_v = HEIGHT_MAP(surface, map_index, wrap_v);
-	map.level_count = HEIGHT_MAP(surface, map_index, level_count);
+	return map;
+}
+
+// Height at a texture coordinate: two mips blended linearly. `map_index` into Surface.height_maps, `level` from heightLevel.
+SHARED_FN precise float heightAt(Surface surface, uint map_index, vec2 uv, float level)
+{
+	HeightMap map = heightMapHead(surface, map_index);
 	float u = foldCoordinate(uv.x, map.wrap_u);
 	float v = foldCoordinate(uv.y, map.wrap_v);
 	precise float base = floor(level);
