@@ -16,6 +16,7 @@ inline constexpr std::string_view kNoHoles = "no_holes";             // C2: ever
 inline constexpr std::string_view kNoLeaks = "no_leaks";             // C1 in the picture: no background within the silhouette
 inline constexpr std::string_view kConservative = "conservative";    // C3
 inline constexpr std::string_view kDeterministic = "deterministic";  // C4
+inline constexpr std::string_view kPaths = "path_against_path";
 inline constexpr std::string_view kFinite = "finite_and_right";
 inline constexpr std::string_view kDevices = "device_against_device";
 

@@ -8,6 +8,7 @@
 #include "verify/holes_check.h"
 #include "verify/leak_check.h"
 #include "verify/overlay.h"
+#include "verify/paths_check.h"
 #include "verify/watertight_check.h"
 
 #include <algorithm>
@@ -24,13 +25,9 @@ constexpr double kDeviceDepthRoom = 1e-6;
 std::vector<NamedCheck> allChecks()
 {
 	return {
-		{ kWatertight, "gap, mesh units", {} },
-		{ kNoHoles, "part of a base triangle", {} },
-		{ kNoLeaks, "pixels", {} },
-		{ kConservative, "depth", {} },
-		{ kDeterministic, "mesh units or counts", {} },
-		{ kFinite, "error, mesh units", {} },
-		{ kDevices, "mesh units or relative depth", {} },
+		{ kWatertight, "gap, mesh units", {} }, { kNoHoles, "part of a base triangle", {} },      { kNoLeaks, "pixels", {} },
+		{ kConservative, "depth", {} },         { kDeterministic, "mesh units or counts", {} },   { kPaths, "pixels from an edge", {} },
+		{ kFinite, "error, mesh units", {} },   { kDevices, "mesh units or relative depth", {} },
 	};
 }
 
@@ -163,6 +160,8 @@ private:
 			TRY(checkVariations(path, camera, rate, uncut));
 			if (first.visible.pixels.empty())
 				first = std::move(uncut);
+			else if (first.result.rate_granted == uncut.result.rate_granted)
+				add(kPaths, checkPaths(screen, uncut.micro, first.visible, uncut.visible, std::string(rasterName(path.path))));
 		}
 		if (other)
 			TRY(checkDevices(*other, camera, rate, first));

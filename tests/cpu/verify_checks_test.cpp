@@ -9,6 +9,7 @@
 #include "verify/holes_check.h"
 #include "verify/leak_check.h"
 #include "verify/overlay.h"
+#include "verify/paths_check.h"
 #include "verify/seam_jump.h"
 #include "verify/usual_way.h"
 #include "verify/watertight_check.h"
@@ -70,8 +71,8 @@ void nudge(vec3& p)
 	p.x = std::nextafter(p.x, std::numeric_limits<float>::max());
 }
 
-// What a rasteriser without rounding would show.
-VisiblePicture painted(const Drawn& drawn)
+// What a rasteriser without rounding would show; `off_px`: of one that has everything that much too far to the right.
+VisiblePicture painted(const Drawn& drawn, double off_px = 0)
 {
 	VisiblePicture picture = { drawn.view.width_px, drawn.view.height_px, {} };
 	picture.pixels.resize(size_t(picture.width_px) * picture.height_px);
@@ -81,6 +82,8 @@ VisiblePicture painted(const Drawn& drawn)
 		std::array<ScreenPoint, 3> p;
 		if (!screen.project(t, p) || !screen.shows(t, p))
 			continue;
+		for (ScreenPoint& point : p)
+			point.x += off_px;
 		const PixelBox box = pixelBox(p, picture.width_px, picture.height_px);
 		const double area = screenArea(p);
 		for (uint32_t y = box.y0; y < box.y1; ++y)
@@ -283,6 +286,35 @@ TEST(verifyChecks, otherIdentitiesAreViolationsAndTiesAreCounted)
 	EXPECT_EQ(comparePictures(picture, other, "again", 0.6).violations, 0u);
 	other.pixels[centre] = {};
 	EXPECT_EQ(comparePictures(picture, other, "again").violations, 1u);
+}
+
+TEST(verifyChecks, pathsMayDifferAtTheEdgesOfMicroTrianglesOnly)
+{
+	const Drawn drawn(cubeScene(2), 4);
+	const VisiblePicture exact = painted(drawn);
+	EXPECT_EQ(checkPaths(drawn.screen(), drawn.set, exact, exact, "").sums.count("pixels that differ"), 0u);
+	const CheckResult rounded = checkPaths(drawn.screen(), drawn.set, exact, painted(drawn, 1.0 / 300), "");
+	EXPECT_EQ(rounded.violations, 0u) << describe(rounded.place);
+	EXPECT_GT(rounded.sums.at("pixels that differ"), 0u);
+	EXPECT_GT(checkPaths(drawn.screen(), drawn.set, exact, painted(drawn, 1.0 / 16), "").violations, 0u);
+}
+
+TEST(verifyChecks, aPixelThatAnotherPathSeesOtherwiseIsFound)
+{
+	const Drawn drawn(cubeScene(2), 40);
+	const VisiblePicture exact = painted(drawn);
+	const size_t middle = exact.pixels.size() / 2 + exact.width_px / 2;
+	ASSERT_TRUE(exact.pixels[middle].covered());
+	VisiblePicture holed = exact, wrong = exact;
+	holed.pixels[middle] = {};
+	const auto other = std::find_if(exact.pixels.begin(), exact.pixels.end(), [&](const VisiblePixel& pixel) {
+		return pixel.covered() && pixel.identity.triangle() != exact.pixels[middle].identity.triangle();
+	});
+	ASSERT_NE(other, exact.pixels.end());
+	wrong.pixels[middle] = *other;
+	EXPECT_EQ(checkPaths(drawn.screen(), drawn.set, exact, holed, "").violations, 1u);
+	EXPECT_EQ(checkPaths(drawn.screen(), drawn.set, holed, exact, "").violations, 1u);
+	EXPECT_EQ(checkPaths(drawn.screen(), drawn.set, exact, wrong, "").violations, 1u);
 }
 
 TEST(verifyChecks, aVertexOutsideItsBoundsIsNotConservative)
