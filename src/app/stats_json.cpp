@@ -32,6 +32,7 @@ ordered_json frameJson(const RunFacts& facts)
 		{ "frames", facts.series.frame.gpu_ms.size() },
 		{ "gpu_ms", timesJson(facts.series.frame) },
 		{ "raster", rasterName(chosenRaster(facts.input)) },
+		{ "raster_reason", rasterChoice(facts.input).reason },
 		{ "rate_wanted", last.rate_wanted },
 		{ "rate_granted", last.rate_granted },
 		{ "coarsening", last.coarsening },

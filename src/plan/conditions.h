@@ -5,17 +5,35 @@
 namespace tessera
 {
 
-// The producer of visibility: what was asked for or, for `auto`, what measured fastest (docs/performance.md): compute where it
-// can be, unless triangles are so large that one workgroup each is too few.
+// The producer of visibility and why it is that one.
+struct RasterChoice
+{
+	Raster raster;
+	std::string_view reason;
+};
+
+// What was asked for or, for `auto`, what measured fastest (docs/performance.md): compute where it can be, unless triangles are so large that
+// one workgroup each is too few.
 constexpr float kLargestSoftRate = 32;
-inline Raster chosenRaster(const PlanInput& input)
+inline RasterChoice rasterChoice(const PlanInput& input)
 {
 	if (input.options.raster != Raster::Auto)
-		return input.options.raster;
-	const bool small_triangles = input.options.rate > 0 && input.options.rate <= kLargestSoftRate;
-	if (input.device.buffer_atomics_64 && (small_triangles || !(input.device.mesh_shader || input.device.fragment_primitive_id)))
-		return Raster::Soft;
-	return input.device.mesh_shader ? Raster::Mesh : Raster::Indexed;
+		return { input.options.raster, "asked for" };
+	const DeviceTraits& device = input.device;
+	if (device.buffer_atomics_64 && !device.mesh_shader && !device.fragment_primitive_id)
+		return { Raster::Soft, "the device can do nothing else" };
+	const Raster drawn = device.mesh_shader ? Raster::Mesh : Raster::Indexed;
+	if (!device.buffer_atomics_64)
+		return { drawn, device.mesh_shader ? "the device lacks 64-bit buffer atomics" : "the device lacks 64-bit buffer atomics and mesh shaders" };
+	if (input.options.rate <= 0)
+		return { drawn, "nothing is tessellated: triangles may be large" };
+	if (input.options.rate > kLargestSoftRate)
+		return { drawn, "segments of more than 32 pixels: triangles are large" };
+	return { Raster::Soft, "triangles are small, and compute rasterises those fastest" };
+}
+inline Raster chosenRaster(const PlanInput& input)
+{
+	return rasterChoice(input).raster;
 }
 inline bool usesSoft(const PlanInput& input)
 {

@@ -1,6 +1,7 @@
 // planFrame over the passes there are: what is kept, what is left out and why, and that every access is ordered.
 #include "frame/frame_resources.h"
 #include "pipeline/passes.h"
+#include "plan/conditions.h"
 #include "plan/plan.h"
 
 #include <gtest/gtest.h>
@@ -312,6 +313,30 @@ TEST(framePlan, indexedDrawingCanBeAskedForWhereMeshShadersAre)
 	const FramePlan plan = planOf(input);
 	EXPECT_TRUE(plan.has("draw_indexed"));
 	expectDropped(plan, { "draw_clusters", "draw_batches" });
+}
+
+TEST(framePlan, theRasterPathIsChosenByDeviceAndRateAndSaysWhy)
+{
+	PlanInput input = fullInput();
+	const auto choice = [&](bool atomics, bool mesh, bool primitive_id, float rate) {
+		input.options.raster = Raster::Auto;
+		input.options.rate = rate;
+		input.device = { mesh, atomics, primitive_id, false };
+		const RasterChoice chosen = rasterChoice(input);
+		EXPECT_FALSE(chosen.reason.empty());
+		EXPECT_EQ(chosenRaster(input), chosen.raster);
+		return chosen;
+	};
+	EXPECT_EQ(choice(true, true, true, 4).raster, Raster::Soft);
+	EXPECT_EQ(choice(true, true, true, 100).raster, Raster::Mesh);
+	EXPECT_EQ(choice(true, false, true, 100).raster, Raster::Indexed);
+	EXPECT_EQ(choice(true, false, false, 100).raster, Raster::Soft);
+	EXPECT_EQ(choice(true, true, true, 0).raster, Raster::Mesh);
+	EXPECT_EQ(choice(false, true, true, 4).raster, Raster::Mesh);
+	EXPECT_EQ(choice(false, false, true, 4).raster, Raster::Indexed);
+	EXPECT_NE(choice(true, true, true, 0).reason, choice(true, true, true, 100).reason);
+	input.options.raster = Raster::Indexed;
+	EXPECT_EQ(rasterChoice(input).reason, "asked for");
 }
 
 TEST(framePlan, whatCannotBeDrawnIsRefusedWithTheReasons)
