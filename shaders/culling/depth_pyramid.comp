@@ -4,20 +4,22 @@
 //   in   visibility_buffer   uint64[]   from raster_micro
 //   out  depth_pyramid       float[]    PYRAMID_LEVELS levels (shared/history.h)
 //
-// One workgroup makes all levels of a square of 64 x 64 pixels: each thread a texel of level 0, then fewer.
+// One workgroup makes all levels of a square of 64 x 64 pixels; as many rows of threads as the device likes, each thread takes texels of its
+// column.
 // Host: src/pipeline/culling/depth_pyramid.cpp   Test: tests/gpu/occlusion_test.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
+// Before every include: glslang takes a workgroup size that is used before it is declared for 1.
+layout(local_size_x = 16, local_size_y_id = 0) in;
 #include "lib/features.glsl"
 #include "lib/frame_data.glsl"
 #include "culling/depth_pyramid.h"
 
 const uint TILE_TEXELS = 16u;  // sides of level 0
 
-layout(local_size_x = TILE_TEXELS, local_size_y = TILE_TEXELS) in;
 layout(push_constant, scalar) uniform Args { DepthPyramidArgs args; };
 
-shared float farthest[TILE_TEXELS][TILE_TEXELS];
+shared float farthest[2][TILE_TEXELS][TILE_TEXELS];  // even and odd levels
 
 // Pixels beyond the picture hide nothing and are not asked for: they do not count.
 float texelDepth(uvec2 texel, View view)
@@ -40,23 +42,37 @@ void store(uvec2 texel, uint level, float depth, View view)
 		frame_history.pyramid.at[pyramidFirst(view.width_px, view.height_px, level) + texel.y * size.x + texel.x] = depth;
 }
 
+void makeFirstLevel(View view)
+{
+	for (uint row = gl_LocalInvocationID.y; row < TILE_TEXELS; row += gl_WorkGroupSize.y)
+	{
+		uvec2 texel = uvec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y * TILE_TEXELS + row);
+		float depth = texelDepth(texel, view);
+		farthest[0][row][gl_LocalInvocationID.x] = depth;
+		store(texel, 0u, depth, view);
+	}
+}
+
+// From the level before, which lies in the other half.
+void makeLevel(uint level, View view)
+{
+	uint side = TILE_TEXELS >> level, from = (level + 1u) & 1u;
+	for (uint row = gl_LocalInvocationID.y; row < side && gl_LocalInvocationID.x < side; row += gl_WorkGroupSize.y)
+	{
+		uint x = 2u * gl_LocalInvocationID.x, y = 2u * row;
+		float depth = min(min(farthest[from][y][x], farthest[from][y][x + 1u]), min(farthest[from][y + 1u][x], farthest[from][y + 1u][x + 1u]));
+		farthest[level & 1u][row][gl_LocalInvocationID.x] = depth;
+		store(gl_WorkGroupID.xy * side + uvec2(gl_LocalInvocationID.x, row), level, depth, view);
+	}
+}
+
 void main()
 {
 	View view = frame_view;
-	uvec2 local = gl_LocalInvocationID.xy;
-	float depth = texelDepth(gl_GlobalInvocationID.xy, view);
-	store(gl_GlobalInvocationID.xy, 0u, depth, view);
+	makeFirstLevel(view);
 	for (uint level = 1u; level < PYRAMID_LEVELS; ++level)
 	{
-		farthest[local.y][local.x] = depth;
 		barrier();
-		uint side = TILE_TEXELS >> level;
-		uvec2 from = 2u * local;
-		if (all(lessThan(local, uvec2(side))))
-		{
-			depth = min(min(farthest[from.y][from.x], farthest[from.y][from.x + 1u]), min(farthest[from.y + 1u][from.x], farthest[from.y + 1u][from.x + 1u]));
-			store(gl_WorkGroupID.xy * side + local, level, depth, view);
-		}
-		barrier();
+		makeLevel(level, view);
 	}
 }

@@ -1,4 +1,4 @@
-// Sun, sky and a studio background; all colours linear until encodePicture.
+// Sun, sky and a studio background; colours are linear until encodePicture, but for the background.
 #ifndef TESSERA_LIB_LIGHTING
 #define TESSERA_LIB_LIGHTING
 
@@ -50,10 +50,12 @@ vec3 litColor(SurfaceColor color, vec3 normal, vec3 to_eye)
 	return light + color.emissive;
 }
 
-vec3 background(vec3 direction)
+// Packed RGBA8 behind everything: most of many pictures, so written as encoded colour, brighter below. `direction` need not be unit.
+uint background(vec3 direction)
 {
-	float height = normalize(direction).y;
-	return mix(vec3(0.060, 0.066, 0.080), vec3(0.012, 0.016, 0.026), smoothstep(-0.6, 0.6, height));
+	float blend = smoothstep(-0.6, 0.6, direction.y * inversesqrt(dot(direction, direction)));
+	vec3 encoded = vec3(0.268505, 0.289018, 0.333396) - blend * (vec3(0.158225, 0.158885, 0.156598) + blend * vec3(0.049431, 0.047251, 0.044105));
+	return packUnorm4x8(vec4(encoded, 1.0));
 }
 
 // Narkowicz's fit of the ACES tone curve, then the sRGB transfer function; packed RGBA8.

@@ -12,8 +12,7 @@ struct Ray
 // `pixel`: position in pixels, centres at .5, y down.
 Ray pixelRay(vec2 pixel, View view)
 {
-	vec2 ndc = pixel / vec2(view.width_px, view.height_px) * 2.0 - 1.0;
-	vec3 across = view.right * (ndc.x / view.focal_x) - view.up * (ndc.y / view.focal_y);
+	vec3 across = view.ray_first + view.ray_x * pixel.x + view.ray_y * pixel.y;
 	bool perspective = view.w_slope != 0.0;
 	return Ray(perspective ? vec3(0.0) : across, perspective ? view.forward + across : view.forward);
 }

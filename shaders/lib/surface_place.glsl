@@ -74,6 +74,9 @@ SurfacePlace placeOf(vec3 point, TriangleCorners corners, Placement placement, v
 		t += correction.z;
 		place.by_length = d2 + d_u * place.weights.x + d_v * place.weights.y;
 		missing = point - p2 - edge_u * place.weights.x - edge_v * place.weights.y - place.by_length * t;
+		// What is left shrinks with the square of each correction.
+		if (abs(correction.x) + abs(correction.y) < 1e-4)
+			break;
 	}
 	// A triangle seen along its own plane may not converge.
 	if (!(abs(place.weights.x) + abs(place.weights.y) < 8.0))

@@ -8,12 +8,14 @@
 //
 // The payload names a micro-triangle, depth the point on it. For the picture, that point tells the place on the base
 // triangle (lib/surface_place.glsl), and normals come from the height map there; debug views and facets evaluate the
-// micro-triangle's corners again. One thread a pixel.
+// micro-triangle's corners again. One workgroup a tile; as many rows of threads as the device likes, each thread takes pixels of its column.
 // Host: src/pipeline/shading/shade.cpp   Test: tests/gpu/picture_test.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_nonuniform_qualifier : require
+// Before every include: glslang takes a workgroup size that is used before it is declared for 1.
+layout(local_size_x = 16, local_size_y_id = 0) in;
 #include "lib/features.glsl"
 #include "lib/frame_data.glsl"
 #include "shading/shade.h"
@@ -25,11 +27,12 @@
 #include "lib/surface_place.glsl"
 #include "lib/visible_triangle.glsl"
 
-layout(local_size_x = 16, local_size_y = 16) in;
 layout(push_constant, scalar) uniform Args { ShadeArgs args; };
 layout(set = 0, binding = 0) uniform sampler2D color_textures[];
 layout(set = 0, binding = 1) uniform utexture2D visibility_payload;
 layout(set = 0, binding = 2) uniform texture2D visibility_depth;
+
+const uint TILE_ROWS = 16u;
 
 shared uint covered;
 
@@ -238,7 +241,8 @@ Visibility visibilityAt(uvec2 place, uint index)
 	return Visibility(texelFetch(visibility_depth, ivec2(place), 0).x, texelFetch(visibility_payload, ivec2(place), 0).x);
 }
 
-void shadePlace(uvec2 place, View view)
+// True when something is seen there.
+bool shadePlace(uvec2 place, View view)
 {
 	uint target = place.y * view.width_px + place.x;
 	vec2 centre = vec2(place) + 0.5;
@@ -246,28 +250,49 @@ void shadePlace(uvec2 place, View view)
 	if (visibility.depth == 0.0)
 	{
 		if (roundIndex() == 0u)
-			args.picture.at[target] = encodePicture(background(pixelRay(centre, view).direction), true);
-		return;
+			args.picture.at[target] = background(pixelRay(centre, view).direction);
+		return false;
 	}
-	atomicAdd(covered, 1u);
 	if (roundCount() > 1u && visibility.payload == NO_INDEX)
-		return;
+		return true;
 	SurfacePixel pixel = surfacePixel(visibility.payload, visibility.depth, centre, view);
 	if (IS_SHADED_VIEW)
 		args.picture.at[target] = encodePicture(litColor(materialColor(pixel), pixel.normal, pixel.to_eye), true);
 	else
 		args.picture.at[target] = encodePicture(debugColor(pixel, visibility.depth, centre, view), args.view_mode == VIEW_FACETS);
+	return true;
+}
+
+// Pixels of the thread's part of its column that see something.
+uint shadeColumn()
+{
+	View view = frame_view;
+	uint count = 0u;
+	for (uint row = gl_LocalInvocationID.y; row < TILE_ROWS; row += gl_WorkGroupSize.y)
+	{
+		uvec2 place = uvec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y * TILE_ROWS + row);
+		if (place.x < view.width_px && place.y < view.height_px && shadePlace(place, view))
+			++count;
+	}
+	return count;
 }
 
 void main()
 {
+	// A processor counts on its own: barriers cost it more than atomics.
+	if (gl_WorkGroupSize.y == 1u)
+	{
+		uint count = shadeColumn();
+		if (count > 0u)
+			atomicAdd(args.counts.at[0].covered_pixels, count);
+		return;
+	}
 	if (gl_LocalInvocationIndex == 0u)
 		covered = 0u;
 	barrier();
-	View view = frame_view;
-	uvec2 place = gl_GlobalInvocationID.xy;
-	if (place.x < view.width_px && place.y < view.height_px)
-		shadePlace(place, view);
+	uint count = shadeColumn();
+	if (count > 0u)
+		atomicAdd(covered, count);
 	barrier();
 	if (gl_LocalInvocationIndex == 0u && covered > 0u)
 		atomicAdd(args.counts.at[0].covered_pixels, covered);
