@@ -11,11 +11,12 @@ SurfaceSample clusterSample(RasterInputs inputs, ClusterRecord cluster, uint ver
 	return sampleAtVertex(surface, cluster.first_vertex + vertex, height_map);
 }
 
-uvec3 clusterTriangle(RasterInputs inputs, ClusterRecord cluster, InstanceRecord instance, uint triangle)
+// `mirrored`: of the instance; 1: triangles turn over.
+uvec3 clusterTriangle(ClusterRecord cluster, uint mirrored, uint triangle)
 {
 	uint base = frame_surface.triangles.at[cluster.first_triangle + triangle];
 	uvec3 corners = uvec3(triangleVertex(base, 0u), triangleVertex(base, 1u), triangleVertex(base, 2u));
-	return HAS_MIRRORED_INSTANCES && instance.mirrored != 0u ? corners.yxz : corners;
+	return HAS_MIRRORED_INSTANCES && mirrored != 0u ? corners.yxz : corners;
 }
 
 #endif

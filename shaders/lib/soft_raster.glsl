@@ -11,7 +11,7 @@
 #include "shared/view.h"
 #include "shared/visibility.h"
 
-const int SUBPIXELS = 256;
+const int SUBPIXELS = SCREEN_SUBPIXELS;
 const float GUARD_PX = 16384.0;    // beyond this, positions would not fit the integers
 const int SMALL_BOX_PX = 256;      // pixels of bounding box up to which one lane does it alone
 const uint MAX_RASTER_VERTICES = RASTER_BATCH_VERTICES;
@@ -23,11 +23,13 @@ struct ScreenVertex
 	float depth;
 };
 
-// What is shared decides how many workgroups are resident, so vertices are held once. All inside the guard band: screen
-// position and depth. Else, which is rare: clip coordinates, and every triangle places its corners itself.
-shared uvec4 raster_vertices[MAX_RASTER_VERTICES];
+// What is shared decides how many workgroups are resident, so vertices are held once and in three words: screen position and depth. Where
+// one lies outside the guard band, which is rare, all are stored again as they are before projection (clip x and y, depth along the view),
+// and every triangle places its corners itself.
+shared uint raster_vertices[3u * MAX_RASTER_VERTICES];  // words: vectors of three would take four
 shared uint raster_has_outside;
 shared uint raster_wide[MAX_RASTER_TRIANGLES / 32u];  // bits: triangles that one lane left to all
+shared uint raster_any_wide;                          // 1: there are some
 shared vec4 raster_polygon[2][9];
 shared uint raster_polygon_size;
 
@@ -46,9 +48,8 @@ precise float exactReciprocal(float w)
 
 bool insideGuard(vec4 clip, View view)
 {
-	float limit_x = clip.w * (2.0 * GUARD_PX / float(view.width_px));
-	float limit_y = clip.w * (2.0 * GUARD_PX / float(view.height_px));
-	return clip.w > 0.0 && clip.z <= clip.w && abs(clip.x) <= limit_x && abs(clip.y) <= limit_y;
+	float limit = clip.w * (2.0 * GUARD_PX * float(SUBPIXELS));
+	return clip.w > 0.0 && clip.z <= clip.w && abs(clip.x) * view.width_subpixels <= limit && abs(clip.y) * view.height_subpixels <= limit;
 }
 
 ScreenVertex toScreen(vec4 clip, View view)
@@ -56,52 +57,62 @@ ScreenVertex toScreen(vec4 clip, View view)
 	precise float inverse = exactReciprocal(clip.w);
 	precise float x = clip.x * inverse * 0.5 + 0.5;
 	precise float y = clip.y * inverse * 0.5 + 0.5;
-	precise float x_px = x * float(view.width_px) * float(SUBPIXELS);
-	precise float y_px = y * float(view.height_px) * float(SUBPIXELS);
+	precise float x_subpixels = x * view.width_subpixels;
+	precise float y_subpixels = y * view.height_subpixels;
 	precise float depth = clip.z * inverse;
-	return ScreenVertex(ivec2(floor(vec2(x_px, y_px) + 0.5)), depth);
+	return ScreenVertex(ivec2(floor(vec2(x_subpixels, y_subpixels) + 0.5)), depth);
 }
 
-// Ends with a barrier.
+// Before an item's first vertex is stored, and, for what is wide, after the last item's triangles are done: there is a barrier between.
 void beginRaster()
 {
 	for (uint i = gl_LocalInvocationIndex; i < MAX_RASTER_TRIANGLES / 32u; i += gl_WorkGroupSize.x)
 		raster_wide[i] = 0u;
 	if (gl_LocalInvocationIndex == 0u)
+	{
 		raster_has_outside = 0u;
-	barrier();
+		raster_any_wide = 0u;
+	}
 }
 
-void storeRasterVertex(uint index, vec4 clip, View view)
+void keepVertex(uint index, uvec3 words)
 {
-	raster_vertices[index] = floatBitsToUint(clip);
-	if (!insideGuard(clip, view))
+	raster_vertices[3u * index] = words.x;
+	raster_vertices[3u * index + 1u] = words.y;
+	raster_vertices[3u * index + 2u] = words.z;
+}
+
+uvec3 keptVertex(uint index) { return uvec3(raster_vertices[3u * index], raster_vertices[3u * index + 1u], raster_vertices[3u * index + 2u]); }
+
+// `relative`: to the eye, scaled. `projects`: first time; else the vertices are kept as they are before projection.
+void storeRasterVertex(uint index, vec3 relative, bool projects, View view)
+{
+	vec4 clip = clipPosition(relative, view);
+	if (!projects)
+		keepVertex(index, floatBitsToUint(vec3(clip.xy, viewDepth(relative, view))));
+	else if (insideGuard(clip, view))
+	{
+		ScreenVertex screen = toScreen(clip, view);
+		keepVertex(index, uvec3(uvec2(screen.position), floatBitsToUint(screen.depth)));
+	}
+	else
 		raster_has_outside = 1u;
 }
 
-// Places all `count` vertices on screen where all are inside; each lane those it stored. Begins and ends with a barrier.
-void placeRasterVertices(uint count, View view)
+vec4 clipVertex(uint index)
 {
-	barrier();
-	if (raster_has_outside == 0u)
-		for (uint v = gl_LocalInvocationIndex; v < count; v += gl_WorkGroupSize.x)
-		{
-			ScreenVertex screen = toScreen(uintBitsToFloat(raster_vertices[v]), view);
-			raster_vertices[v] = uvec4(uvec2(screen.position), floatBitsToUint(screen.depth), 0u);
-		}
-	barrier();
+	vec3 stored = uintBitsToFloat(keptVertex(index));
+	return clipAt(stored.xy, stored.z, frame_view);
 }
 
 // A vertex that is inside the guard band.
 ScreenVertex screenVertex(uint index, View view)
 {
-	uvec4 stored = raster_vertices[index];
 	if (raster_has_outside != 0u)
-		return toScreen(uintBitsToFloat(stored), view);
+		return toScreen(clipVertex(index), view);
+	uvec3 stored = keptVertex(index);
 	return ScreenVertex(ivec2(stored.xy), uintBitsToFloat(stored.z));
 }
-
-vec4 clipVertex(uint index) { return uintBitsToFloat(raster_vertices[index]); }
 
 bool allInside(uvec3 corners, View view)
 {
@@ -232,7 +243,11 @@ bool isBeyondOneSide(vec4 a, vec4 b, vec4 c)
 	return any(lessThan(sides, vec4(0.0))) || before_near < 0.0;
 }
 
-void leaveWide(uint triangle) { atomicOr(raster_wide[triangle >> 5], 1u << (triangle & 31u)); }
+void leaveWide(uint triangle)
+{
+	atomicOr(raster_wide[triangle >> 5], 1u << (triangle & 31u));
+	raster_any_wide = 1u;
+}
 
 // One lane takes triangle `triangle` of its workgroup: does it alone when it is small, leaves it to finishRaster otherwise.
 void rasterTriangle(VisibilityRef target, uint triangle, uvec3 corners, uint payload, bool two_sided, View view)

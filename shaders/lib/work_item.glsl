@@ -9,81 +9,75 @@
 struct WorkItem
 {
 	bool is_batch;
-	uint parts;            // packBatch; of a batch
-	uint visible_cluster;  // of a full cluster
+	uint parts;  // of a batch: how many; of a full cluster: which visible cluster
 	uint first_vertex;
 	uint vertex_count;
 	uint triangle_count;
-	ClusterRecord cluster;  // of a full cluster
-	InstanceRecord instance;
 };
 
-WorkItem clusterItem(RasterInputs inputs, FullCluster full)
+// Of a full cluster, in shared memory with all else that belongs to an item: registers decide how many workgroups are resident. Its placement
+// stands where part 0's would.
+shared ClusterRecord item_cluster;
+
+// All lanes together, as all below. Ends with a barrier.
+WorkItem loadCluster(RasterInputs inputs, FullCluster full)
 {
 	ClusterRef ref = inputs.visible_clusters.at[full.visible_cluster];
-	WorkItem item;
-	item.is_batch = false;
-	item.parts = 0u;
-	item.visible_cluster = full.visible_cluster;
-	item.first_vertex = full.first_vertex;
-	item.cluster = inputs.clusters.at[ref.cluster];
-	item.instance = inputs.instances.at[ref.instance];
-	item.vertex_count = clusterVertices(item.cluster);
-	item.triangle_count = clusterTriangles(item.cluster);
-	return item;
+	ClusterRecord cluster = inputs.clusters.at[ref.cluster];
+	for (uint row = gl_LocalInvocationIndex; row < 3u; row += gl_WorkGroupSize.x)
+		loadPlacementRow(inputs.instances.at[ref.instance], 0u, row);
+	if (gl_LocalInvocationIndex == 0u)
+	{
+		item_cluster = cluster;
+		part_turned[0] = HAS_MIRRORED_INSTANCES ? inputs.instances.at[ref.instance].mirrored : 0u;
+	}
+	barrier();
+	return WorkItem(false, full.visible_cluster, full.first_vertex, clusterVertices(cluster), clusterTriangles(cluster));
 }
 
-// All lanes together: the parts go into shared memory.
-WorkItem batchItem(RasterInputs inputs, Batch batch)
+WorkItem loadBatchItem(RasterInputs inputs, Batch batch)
 {
-	loadBatchParts(inputs, batch.parts);
-	WorkItem item;
-	item.is_batch = true;
-	item.parts = batch.parts;
-	item.first_vertex = batch.first_vertex;
-	item.vertex_count = batchVertices(batch);
-	item.triangle_count = batchTriangles(batch);
-	return item;
+	loadBatchBases(inputs, batch.parts);
+	barrier();
+	loadBatchCorners(inputs, batchCount(batch.parts));
+	barrier();
+	return WorkItem(true, batchCount(batch.parts), batch.first_vertex, batchVertices(batch), batchTriangles(batch));
 }
 
 // Entry `index` of full_clusters and, after those, of batches.
 WorkItem workItem(RasterInputs inputs, FullClusterRef full_clusters, BatchRef batches, uint index, uint cluster_count)
 {
 	if (!HAS_TESSELLATION || index < cluster_count)
-		return clusterItem(inputs, full_clusters.at[index]);
-	return batchItem(inputs, batches.at[index - cluster_count]);
+		return loadCluster(inputs, full_clusters.at[index]);
+	return loadBatchItem(inputs, batches.at[index - cluster_count]);
 }
 
-// Micro-vertex `index` of the item, clip coordinates.
-vec4 itemVertex(RasterInputs inputs, WorkItem item, uint index)
+// Micro-vertex `index` of the item, relative to the eye, scaled.
+vec3 itemVertex(RasterInputs inputs, WorkItem item, uint index)
 {
-	View view = frame_view;
-	Placement placement;
+	bool is_batch = HAS_TESSELLATION && item.is_batch;
+	uint owner = is_batch ? owningPart(index, 0u) : 0u;
 	SurfaceSample at;
-	if (HAS_TESSELLATION && item.is_batch)
-	{
-		uint owner = owningPart(index, 0u);
-		placement = partPlacement(owner);
+	if (is_batch)
 		at = batchSample(inputs, index, owner);
-	}
 	else
-	{
-		placement = placementOf(item.instance, view);
-		at = clusterSample(inputs, item.cluster, index);
-	}
-	return clipPosition(placed(placement, displaced(frame_surface, at, placement, view).displaced), view);
+		at = clusterSample(inputs, item_cluster, index);
+	Placement placement = partPlacement(owner);
+	return placed(placement, displaced(frame_surface, at, placement, frame_view).displaced);
 }
 
 MicroTriangle itemTriangle(RasterInputs inputs, WorkItem item, uint index)
 {
 	if (HAS_TESSELLATION && item.is_batch)
 		return batchTriangle(inputs, index, owningPart(index, 16u));
-	return MicroTriangle(clusterTriangle(inputs, item.cluster, item.instance, index), packPayload(KIND_FULL_CLUSTER, item.visible_cluster, index));
+	return MicroTriangle(clusterTriangle(item_cluster, part_turned[0], index), packPayload(KIND_FULL_CLUSTER, item.parts, index));
 }
 
 uint itemMaterial(WorkItem item, uint triangle)
 {
-	return HAS_TESSELLATION && item.is_batch ? part_materials[owningPart(triangle, 16u)] : item.cluster.material;
+	if (HAS_TESSELLATION && item.is_batch)
+		return part_materials[owningPart(triangle, 16u)];
+	return item_cluster.material;
 }
 
 #endif

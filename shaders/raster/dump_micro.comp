@@ -42,24 +42,23 @@ uvec2 triangleWithVertex(ClusterRecord cluster, uint vertex)
 DumpSource clusterSource(WorkItem item, uint index)
 {
 	DumpSource source;
-	source.owner = item.visible_cluster;
+	source.owner = item.parts;
 	source.name = DomainPoint(index, 0u);
-	uvec2 use = HAS_SMOOTH_NORMALS ? triangleWithVertex(item.cluster, index) : uvec2(0u);
-	source.base = baseTriangle(frame_surface, item.cluster, use.x);
+	uvec2 use = HAS_SMOOTH_NORMALS ? triangleWithVertex(item_cluster, index) : uvec2(0u);
+	source.base = baseTriangle(frame_surface, item_cluster, use.x);
 	source.point = domainCorner(use.y);
-	source.placement = placementOf(item.instance, frame_view);
-	source.at = clusterSample(args.inputs, item.cluster, index);
+	source.placement = partPlacement(0u);
+	source.at = clusterSample(args.inputs, item_cluster, index);
 	return source;
 }
 
 DumpSource batchSource(WorkItem item, uint index)
 {
 	uint part = owningPart(index, 0u);
-	DomainPiece piece = unpackTriangle(part_records[part]);
 	DumpSource source;
 	source.owner = part_indices[part];
 	source.base = part_bases[part];
-	source.point = patternPoint(piece, index - (part_sums[part] & 0xffffu), part_patterns[part], args.inputs.table, triangleEdgeFlags(source.base.flags));
+	source.point = batchPoint(args.inputs, index, part);
 	source.name = source.point;
 	source.placement = partPlacement(part);
 	source.at = batchSample(args.inputs, index, part);

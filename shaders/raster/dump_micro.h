@@ -36,7 +36,7 @@ struct DumpItem
 	DumpVertex vertices[DUMP_ITEM_VERTICES];
 	DumpTriangle triangles[DUMP_ITEM_TRIANGLES];
 };
-SHARED_LAYOUT(DumpItem, 17928, triangles, 13832)
+SHARED_LAYOUT(DumpItem, 24584, triangles, 18440)
 
 struct DumpMicroArgs
 {

@@ -38,7 +38,7 @@ void writeTriangle(uint triangle, uint first_vertex, uvec3 corners, uint payload
 void evaluateItem(WorkItem item)
 {
 	for (uint v = gl_LocalInvocationIndex; v < item.vertex_count; v += gl_WorkGroupSize.x)
-		args.vertices.at[item.first_vertex + v] = itemVertex(args.inputs, item, v);
+		args.vertices.at[item.first_vertex + v] = clipPosition(itemVertex(args.inputs, item, v), frame_view);
 	if (EXPANDS_TRIANGLES)
 	{
 		takeTriangles(item.triangle_count);

@@ -112,16 +112,20 @@ SHARED_FN uint domainAlong(uint from, uint to, uint k, uint n, uint multiplier)
 	return to >= from ? from + offset : from - offset;
 }
 
-// The k-th of n points (0 <= k <= n <= 15) from p to q; the same integers for whoever asks from either end.
-SHARED_FN DomainPoint edgePoint(DomainPoint p, DomainPoint q, uint k, uint n, uint edge_flags)
+// edgePoint, given what is the same for all points of an edge.
+SHARED_FN DomainPoint edgePointAlong(DomainPoint p, DomainPoint q, uint k, uint n, uint multiplier, bool from_first)
 {
-	bool from_first = countsFromFirst(p, q, edge_flags);
 	uint steps = from_first ? k : n - k;
-	uint multiplier = divisionMultiplier(n);
 	DomainPoint point;
 	point.u = domainAlong(from_first ? p.u : q.u, from_first ? q.u : p.u, steps, n, multiplier);
 	point.v = domainAlong(from_first ? p.v : q.v, from_first ? q.v : p.v, steps, n, multiplier);
 	return point;
+}
+
+// The k-th of n points (0 <= k <= n <= 15) from p to q; the same integers for whoever asks from either end.
+SHARED_FN DomainPoint edgePoint(DomainPoint p, DomainPoint q, uint k, uint n, uint edge_flags)
+{
+	return edgePointAlong(p, q, k, n, divisionMultiplier(n), countsFromFirst(p, q, edge_flags));
 }
 
 SHARED_FN uint weightedSum(uint a, uint b, uint c, uint wa, uint wb, uint wc)

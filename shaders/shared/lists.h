@@ -97,9 +97,11 @@ SHARED_LAYOUT(PartPlace, 8, offsets, 4)
 // What a mesh shader can emit at once, and what one pattern can have.
 #define BATCH_MAX_VERTICES 96u
 #define BATCH_MAX_TRIANGLES 128u
-// Where compute rasterises: several patterns, so that what a workgroup loads for them is loaded side by side.
-#define RASTER_BATCH_VERTICES 384u
-#define RASTER_BATCH_TRIANGLES 512u
+// Where compute rasterises: several patterns, so that what a workgroup loads for them is loaded side by side. Few enough parts that what
+// they need stays small: shared memory decides how many workgroups are resident.
+#define RASTER_BATCH_PARTS 16u
+#define RASTER_BATCH_VERTICES 512u
+#define RASTER_BATCH_TRIANGLES 768u
 SHARED_FN uint batchVertices(Batch batch)
 {
 	return batch.counts & 0xffffu;

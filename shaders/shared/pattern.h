@@ -77,22 +77,37 @@ SHARED_FN DomainPiece inPatternOrder(DomainPiece piece)
 	return mirrored;
 }
 
-// Micro-vertex `index` of a piece: its corners, then the points of edges a, b, c, then the interior of the pattern.
-// Which edge is chosen first and one edge point computed after, so that the lanes of a subgroup stay together.
-SHARED_FN DomainPoint patternPoint(DomainPiece piece, uint index, PatternRange pattern, TableView table, uint edge_flags)
+// Where micro-vertex `index` of a pattern lies: first the corners, then the points of edges a, b, c, then the interior.
+struct PatternPlace
 {
-	uint first_b = 3u + piece.a - 1u;
-	uint first_c = first_b + piece.b - 1u;
-	uint first_interior = first_c + piece.c - 1u;
-	if (index >= first_interior)
-		return interiorPoint(piece.c0, piece.c1, piece.c2, AT(uint, table.vertices, pattern.first_vertex + index));
+	uint edge;      // 0 a (corners 0-1), 1 b (1-2), 2 c (2-0), 3 interior
+	uint k;         // along the edge, from its first corner; a corner is point 0 of the edge that begins there
+	uint segments;  // of the edge
+};
+
+SHARED_FN PatternPlace patternPlace(uint index, uint a, uint b, uint c)
+{
+	uint first_b = 3u + a - 1u;
+	uint first_c = first_b + b - 1u;
+	uint first_interior = first_c + c - 1u;
 	bool on_a = index == 0u || (index >= 3u && index < first_b);
 	bool on_b = index == 1u || (index >= first_b && index < first_c);
-	DomainPoint from = on_a ? piece.c0 : (on_b ? piece.c1 : piece.c2);
-	DomainPoint to = on_a ? piece.c1 : (on_b ? piece.c2 : piece.c0);
-	uint segments = on_a ? piece.a : (on_b ? piece.b : piece.c);
-	uint k = index < 3u ? 0u : index + 1u - (on_a ? 3u : (on_b ? first_b : first_c));
-	return edgePoint(from, to, k, segments, edge_flags);
+	PatternPlace place;
+	place.edge = index >= first_interior ? 3u : (on_a ? 0u : (on_b ? 1u : 2u));
+	place.k = index < 3u ? 0u : index + 1u - (on_a ? 3u : (on_b ? first_b : first_c));
+	place.segments = on_a ? a : (on_b ? b : c);
+	return place;
+}
+
+// Micro-vertex `index` of a piece. Which edge is chosen first and one edge point computed after, so that the lanes of a subgroup stay together.
+SHARED_FN DomainPoint patternPoint(DomainPiece piece, uint index, PatternRange pattern, TableView table, uint edge_flags)
+{
+	PatternPlace place = patternPlace(index, piece.a, piece.b, piece.c);
+	if (place.edge == 3u)
+		return interiorPoint(piece.c0, piece.c1, piece.c2, AT(uint, table.vertices, pattern.first_vertex + index));
+	DomainPoint from = place.edge == 0u ? piece.c0 : (place.edge == 1u ? piece.c1 : piece.c2);
+	DomainPoint to = place.edge == 0u ? piece.c1 : (place.edge == 1u ? piece.c2 : piece.c0);
+	return edgePoint(from, to, place.k, place.segments, edge_flags);
 }
 
 // The three micro-vertices of micro-triangle `index`, in the base triangle's winding.

@@ -30,8 +30,18 @@ struct View
 	float displacement_scale;
 	uint width_px;
 	uint height_px;
+	// What follows is derived from the above, so that no thread does it again.
+	float width_subpixels;  // width_px * SCREEN_SUBPIXELS
+	float height_subpixels;
+	// A pixel's ray, pixel = (x, y) with centres at .5, y down: where it meets the plane one unit ahead is, beside the view's axis,
+	// ray_first + x ray_x + y ray_y.
+	vec3 ray_first;
+	vec3 ray_x;
+	vec3 ray_y;
 };
-SHARED_LAYOUT(View, 124, height_px, 120)
+SHARED_LAYOUT(View, 168, ray_y, 156)
+
+#define SCREEN_SUBPIXELS 256  // positions on screen are rounded to 1/256 pixel
 
 // Placement of one mesh in the world.
 struct InstanceRecord
@@ -116,18 +126,32 @@ SHARED_FN precise float rateDistanceSquared(vec3 relative, View view)
 	return max(weighted, view.distance_floor_squared);
 }
 
-// Clip coordinates of a camera-relative point: reverse z, nearer is larger.
-SHARED_FN precise vec4 clipPosition(vec3 relative, View view)
+// Depth of a camera-relative point along the view.
+SHARED_FN precise float viewDepth(vec3 relative, View view)
 {
-	precise float depth = affineRow(view.forward, relative, 0.0f);
-	precise float x = affineRow(view.right, relative, 0.0f);
-	precise float y = affineRow(view.up, relative, 0.0f);
+	return affineRow(view.forward, relative, 0.0f);
+}
+
+// Clip coordinates from x and y and the depth along the view: reverse z, nearer is larger.
+SHARED_FN precise vec4 clipAt(vec2 xy, float depth, View view)
+{
 	precise vec4 clip;
-	clip.x = x * view.focal_x;
-	clip.y = -(y * view.focal_y);
+	clip.x = xy.x;
+	clip.y = xy.y;
 	clip.z = depth * view.depth_slope + view.depth_offset;
 	clip.w = depth * view.w_slope + view.w_offset;
 	return clip;
+}
+
+// Clip coordinates of a camera-relative point.
+SHARED_FN precise vec4 clipPosition(vec3 relative, View view)
+{
+	precise float x = affineRow(view.right, relative, 0.0f);
+	precise float y = affineRow(view.up, relative, 0.0f);
+	precise vec2 xy;
+	xy.x = x * view.focal_x;
+	xy.y = -(y * view.focal_y);
+	return clipAt(xy, viewDepth(relative, view), view);
 }
 
 SHARED_END

@@ -2,7 +2,7 @@
 // retest_parts, for what the first time was left out as hidden.
 //
 //   in   part_triangles   DomainTriangle[]   from cluster_classify and triangle_split
-//   out  batches          Batch[]            first part and count; at most 32 parts, and what the stage that draws can hold
+//   out  batches          Batch[]            first part and count; as many as the stage that draws can hold
 //   out  part_places      PartPlace[]        the order of batches; per window what is seen, then what is hidden
 //   with occlusion culling:
 //   in   frame_history                       depth pyramids of the frame before and of this one
@@ -25,15 +25,21 @@
 layout(local_size_x = BATCH_WINDOW) in;
 layout(push_constant, scalar) uniform Args { BatchPartsArgs args; };
 
-// Sums over all parts before index i: vertices in the low, triangles in the high half (128 x 128 fits 16 bits).
+const uint SCAN_RUN = 8u;  // lanes whose sum is known before each lane adds up those before it
+
+shared uint sizes[BATCH_WINDOW];
+shared uint run_sums[BATCH_WINDOW / SCAN_RUN];
+// Sums over all lanes before lane i; of sizes of parts, vertices in the low, triangles in the high half (128 x 128 fits 16 bits).
 shared uint sums[BATCH_WINDOW + 1u];
 shared uint jumps[BATCH_WINDOW + 1u];
 shared uint marks[BATCH_WINDOW + 1u];
-shared uint order[BATCH_WINDOW];  // the window's parts, those to be batched first
+shared uint order[BATCH_WINDOW];  // the window's parts, those to be batched first, and their sizes
+shared uint order_sizes[BATCH_WINDOW];
 shared uint batch_count;
 shared uint first_batch;
 shared uint first_vertex;
 
+// Micro-vertices of a part in the low, micro-triangles in the high half.
 uint partSize(uint part)
 {
 	DomainPiece piece = unpackTriangle(args.part_triangles.at[part]);
@@ -41,34 +47,43 @@ uint partSize(uint part)
 	return patternVertices(pattern) | (patternTriangles(pattern) << 16);
 }
 
-// Inclusive scan of `size` over the workgroup into sums[1..].
+// Fills sums with what the lanes give. Few barriers matter more than few additions. Ends with a barrier.
 void scan(uint size)
 {
 	uint lane = gl_LocalInvocationIndex;
-	sums[lane + 1u] = size;
-	if (lane == 0u)
-		sums[0] = 0u;
+	uint run = lane / SCAN_RUN;
+	sizes[lane] = size;
 	barrier();
-	for (uint step = 1u; step < BATCH_WINDOW; step *= 2u)
+	if (lane < BATCH_WINDOW / SCAN_RUN)
 	{
-		uint before = lane >= step ? sums[lane + 1u - step] : 0u;
-		barrier();
-		sums[lane + 1u] += before;
-		barrier();
+		uint sum = 0u;
+		for (uint i = 0u; i < SCAN_RUN; ++i)
+			sum += sizes[lane * SCAN_RUN + i];
+		run_sums[lane] = sum;
 	}
+	barrier();
+	uint before = 0u;
+	for (uint i = 0u; i < BATCH_WINDOW / SCAN_RUN; ++i)
+		before += i < run ? run_sums[i] : 0u;
+	for (uint i = 0u; i < SCAN_RUN; ++i)
+		before += run * SCAN_RUN + i < lane ? sizes[run * SCAN_RUN + i] : 0u;
+	sums[lane] = before;
+	if (lane == BATCH_WINDOW - 1u)
+		sums[BATCH_WINDOW] = before + size;
+	barrier();
 }
 
 bool fits(uint from, uint to)
 {
 	uint size = sums[to] - sums[from];
-	return to - from <= BATCH_MAX_PARTS && (size & 0xffffu) <= args.most_vertices && (size >> 16) <= args.most_triangles;
+	return to - from <= args.most_parts && (size & 0xffffu) <= args.most_vertices && (size >> 16) <= args.most_triangles;
 }
 
 // End of a batch that starts at `from`: the sums grow, so a binary search finds it. A single part always fits.
 uint batchEnd(uint from, uint count)
 {
 	uint low = from + 1u;
-	uint high = min(count, from + BATCH_MAX_PARTS);
+	uint high = min(count, from + args.most_parts);
 	while (low < high)
 	{
 		uint middle = (low + high + 1u) / 2u;
@@ -84,7 +99,8 @@ uint batchEnd(uint from, uint count)
 void markStarts()
 {
 	uint lane = gl_LocalInvocationIndex;
-	for (uint reach = 1u; reach < BATCH_WINDOW; reach *= 2u)
+	// Until the first start jumps past the last.
+	for (uint reach = 1u; reach < BATCH_WINDOW && jumps[0] != BATCH_WINDOW; reach *= 2u)
 	{
 		uint jump = jumps[lane];
 		bool marked = marks[lane] != 0u;
@@ -137,22 +153,30 @@ bool partIsHidden(uint part)
 	return pieceIsHidden(a, b, c, bounds, instance, frame_history.last_view, frame_history.last_pyramid);
 }
 
-// Puts what is seen of places [begin, begin + count) first; returns how many that are. The first time, places are parts.
+// Puts what is seen of places [begin, begin + count) first; returns how many that are. The first time, places are parts, and all their
+// triangles are counted.
 uint sortBySeen(uint begin, uint count)
 {
 	uint lane = gl_LocalInvocationIndex;
 	uint part = begin + lane;
-	if (args.second_phase != 0u && lane < count)
+	bool second = args.second_phase != 0u;
+	if (second && lane < count)
 		part = args.part_places.at[begin + lane].part;
+	uint size = lane < count ? partSize(part) : 0u;
 	bool seen = lane < count && !partIsHidden(part);
-	scan(seen ? 1u : 0u);
-	uint seen_count = sums[BATCH_WINDOW];
-	uint place = seen ? sums[lane] : seen_count + lane - sums[lane];
+	// Those seen in the low, triangles in the high half.
+	scan((seen ? 1u : 0u) | (size & 0xffff0000u));
+	uint seen_count = sums[BATCH_WINDOW] & 0xffffu;
+	uint seen_before = sums[lane] & 0xffffu;
+	uint place = seen ? seen_before : seen_count + lane - seen_before;
 	if (lane < count)
 	{
 		order[place] = part;
+		order_sizes[place] = size;
 		args.part_places.at[begin + place].part = part;
 	}
+	if (lane == 0u && !second)
+		addMicroTriangles(args.counts, sums[BATCH_WINDOW] >> 16);
 	barrier();
 	return seen_count;
 }
@@ -161,7 +185,12 @@ uint sortBySeen(uint begin, uint count)
 void batchWindow(uint begin, uint count)
 {
 	uint lane = gl_LocalInvocationIndex;
-	scan(lane < count ? partSize(HAS_OCCLUSION ? order[lane] : begin + lane) : 0u);
+	uint size = 0u;
+	if (lane < count)
+		size = HAS_OCCLUSION ? order_sizes[lane] : partSize(begin + lane);
+	scan(size);
+	if (!HAS_OCCLUSION && lane == 0u)
+		addMicroTriangles(args.counts, sums[BATCH_WINDOW] >> 16);
 	uint end = lane < count ? batchEnd(lane, count) : BATCH_WINDOW;
 	jumps[lane] = lane < count && end < count ? end : BATCH_WINDOW;
 	marks[lane] = lane == 0u ? 1u : 0u;
@@ -224,16 +253,6 @@ void takeWindow(uint window, uint part_count)
 		batchWindow(begin, seen);
 }
 
-void countTriangles(uint window, uint part_count)
-{
-	uint lane = gl_LocalInvocationIndex;
-	uint part = window * BATCH_WINDOW + lane;
-	scan(part < part_count ? partSize(part) >> 16 : 0u);
-	if (lane == 0u)
-		addMicroTriangles(args.counts, sums[BATCH_WINDOW]);
-	barrier();
-}
-
 void retestClusters()
 {
 	uint stride = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
@@ -257,11 +276,7 @@ void main()
 		return;
 	uint part_count = uint64_t(args.part_triangles) != 0ul ? entriesOf(args.heads, LIST_PART_TRIANGLES) : 0u;
 	for (uint window = gl_WorkGroupID.x; window * BATCH_WINDOW < part_count; window += gl_NumWorkGroups.x)
-	{
-		if (!second)
-			countTriangles(window, part_count);
 		takeWindow(window, part_count);
-	}
 	if (second)
 		retestClusters();
 }

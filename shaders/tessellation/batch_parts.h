@@ -23,11 +23,12 @@ struct BatchPartsArgs
 	GPU_PTR(TriangleReach) triangle_reaches;  // per triangle; 0 when nothing is displaced
 	GPU_PTR(ClusterRef) visible_clusters;
 	GPU_PTR(FullCluster) full_clusters;
-	uint most_vertices;  // of a batch
+	uint most_parts;  // of a batch, at most BATCH_MAX_PARTS
+	uint most_vertices;
 	uint most_triangles;
 	uint second_phase;  // 1: what was hidden is tested against this frame's pyramid
 };
-SHARED_LAYOUT(BatchPartsArgs, 120, second_phase, 112)
+SHARED_LAYOUT(BatchPartsArgs, 120, second_phase, 116)
 
 SHARED_END
 

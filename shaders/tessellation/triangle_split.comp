@@ -21,7 +21,7 @@ layout(local_size_x_id = 0) in;
 
 layout(push_constant, scalar) uniform Args { TriangleSplitArgs args; };
 
-const uint SPLITS_PER_GROUP = 32u;
+const uint SPLITS_PER_GROUP = 16u;
 
 shared DomainTriangle split_records[SPLITS_PER_GROUP];
 shared PatternRange split_patterns[SPLITS_PER_GROUP];
@@ -70,8 +70,8 @@ void loadSplit(uint lane, uint index)
 void sumChildren(uint lane, uint count)
 {
 	uint sum = 0u;
-	for (uint i = 0u; i < min(lane, count); ++i)
-		sum += child_counts[i];
+	for (uint i = 0u; i < SPLITS_PER_GROUP; ++i)
+		sum += i < min(lane, count) ? child_counts[i] : 0u;
 	child_sums[lane] = sum;
 }
 

@@ -80,17 +80,30 @@ void recordBarrier(VkCommandBuffer commands, const PlanStep& step)
 	vkCmdPipelineBarrier2(commands, &info);
 }
 
-// Threads per workgroup of the shaders that take it as constant 0.
+// Rows of 16 threads of the shaders that take a tile of 16 x 16 at a time: on a processor, where a workgroup's threads take turns at every
+// barrier, one.
+uint32_t tileRows(const Device& device)
+{
+	if (device.limits.compute_workgroup_threads > 0)
+		return std::clamp(device.limits.compute_workgroup_threads / 16, 1u, 16u);
+	return device.is_cpu ? 1 : 16;
+}
+
+// Threads per workgroup of the shaders that take it as constant 0; rows of those that take tiles.
 uint32_t workgroupThreads(const Device& device, const PassDesc& pass)
 {
-	if (pass.shaders.front().ends_with(".mesh"))
+	const std::string_view shader = pass.shaders.front();
+	if (shader.ends_with(".mesh"))
 		return device.limits.mesh_workgroup_threads;
+	if (shader == "shading/shade.comp" || shader == "culling/depth_pyramid.comp")
+		return tileRows(device);
 	if (device.limits.compute_workgroup_threads > 0)
 		return device.limits.compute_workgroup_threads;
 	if (device.is_cpu)
 		return 32;
-	const std::string_view shader = pass.shaders.front();
-	return shader == "raster/raster_micro.comp" || shader == "tessellation/triangle_split.comp" ? 128 : 64;
+	if (shader == "raster/raster_micro.comp")
+		return 256;
+	return shader == "tessellation/triangle_split.comp" ? 128 : 64;
 }
 
 VkCullModeFlags cullMode(const SceneTraits& scene)

@@ -155,6 +155,17 @@ void setRate(View& view, const Camera& camera, const ViewRequest& request)
 	view.sample_over_focal_squared = request.rate_px > 0 ? rateOverFocalSquared(camera, request.height_px, request.rate_px) : 0;
 }
 
+// What follows from the rest of a view.
+static void setDerived(View& view, const Basis& basis)
+{
+	view.width_subpixels = static_cast<float>(view.width_px) * SCREEN_SUBPIXELS;
+	view.height_subpixels = static_cast<float>(view.height_px) * SCREEN_SUBPIXELS;
+	const dvec3 right = basis.right / double(view.focal_x), up = basis.up / double(view.focal_y);
+	view.ray_first = vec3(up - right);
+	view.ray_x = vec3(right * (2.0 / view.width_px));
+	view.ray_y = vec3(up * (-2.0 / view.height_px));
+}
+
 Result<View> makeView(const Camera& camera, const BuiltScene& scene, const ViewRequest& request)
 {
 	TRY(checkCamera(camera, request));
@@ -176,6 +187,7 @@ Result<View> makeView(const Camera& camera, const BuiltScene& scene, const ViewR
 	view.displacement_scale = request.displacement_scale;
 	view.width_px = request.width_px;
 	view.height_px = request.height_px;
+	setDerived(view, basis);
 	return view;
 }
 

@@ -24,7 +24,7 @@ static constexpr Use kUses[] = {
 };
 
 // SPLITS_PER_GROUP of the shader.
-constexpr uint32_t kSplitsPerGroup = 32;
+constexpr uint32_t kSplitsPerGroup = 16;
 
 static uint32_t levels(const PlanInput& input)
 {
