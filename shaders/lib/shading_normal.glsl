@@ -79,6 +79,16 @@ HeightSlope displacementSlope(Surface surface, uint map_index, vec2 uv, float le
 	return result;
 }
 
+// The normal that a height's slope turns `normal` (unit) to, not normalised. `tangent_u`, `tangent_v`: how the surface moves with the weights
+// of corners 0 and 1 before the height changes; `slope_u`, `slope_v`: how the height does; `direction`: how the surface moves with the height.
+vec3 turnedNormal(vec3 normal, vec3 tangent_u, vec3 tangent_v, vec3 direction, float slope_u, float slope_v)
+{
+	float determinant = dot(normal, cross(tangent_u, tangent_v));
+	vec3 turn = slope_u * cross(tangent_v, direction) + slope_v * cross(direction, tangent_u);
+	vec3 turned = abs(determinant) * normal - sign(determinant) * turn;
+	return dot(turned, turned) == 0.0 ? normal : turned;
+}
+
 struct ShadingSurface
 {
 	vec3 normal;         // mesh space, not normalised
@@ -108,13 +118,8 @@ ShadingSurface displacedNormal(Surface surface, BaseTriangle base, vec3 weights,
 	// Tangents of the surface moved out by the height, before the height itself changes.
 	vec3 tangent_u = p0 - p2 + (d0 - d2) * result.displacement;
 	vec3 tangent_v = p1 - p2 + (d1 - d2) * result.displacement;
-	vec3 n = normalize(smooth_normal);
-	vec3 r_u = cross(tangent_v, n);
-	vec3 r_v = cross(n, tangent_u);
-	float determinant = dot(tangent_u, r_u);
-	result.normal = abs(determinant) * n - sign(determinant) * (slope_u * r_u + slope_v * r_v);
-	if (dot(result.normal, result.normal) == 0.0)
-		result.normal = n;
+	vec3 normal = normalize(smooth_normal);
+	result.normal = turnedNormal(normal, tangent_u, tangent_v, normal, slope_u, slope_v);
 	return result;
 }
 

@@ -80,7 +80,11 @@ SurfacePlace placeOf(vec3 point, TriangleCorners corners, Placement placement, v
 	}
 	// A triangle seen along its own plane may not converge.
 	if (!(abs(place.weights.x) + abs(place.weights.y) < 8.0))
+	{
 		place.weights = start;
+		place.by_u = edge_u;
+		place.by_v = edge_v;
+	}
 	place.weights.z = 1.0 - place.weights.x - place.weights.y;
 	return place;
 }

@@ -83,11 +83,49 @@ vec3 smoothNormal(inout SurfacePixel pixel, View view)
 	return worldNormal(surface.normal, pixel.visible.placement);
 }
 
+// The same at a place that depth told: in world space, from how that place's point moves, so that little is held while heights are read.
+vec3 smoothNormalAt(inout SurfacePixel pixel, TriangleCorners corners, SurfacePlace place, vec3 point, View view)
+{
+	BaseTriangle base = pixel.visible.base;
+	Placement placement = pixel.visible.placement;
+	vec3 weights = pixel.weights;
+	vec3 authored;
+	if (HAS_DISPLACEMENT && DIRECTIONS_ARE_NORMALS)
+		authored = corners.direction0 * weights.x + corners.direction1 * weights.y + corners.direction2 * weights.z;
+	else
+	{
+		vec3Ref normals = args.shading.at[0].normals;
+		authored = normals.at[base.v0] * weights.x + normals.at[base.v1] * weights.y + normals.at[base.v2] * weights.z;
+	}
+	vec3 normal = worldNormal(authored, placement);
+	normal = pixel.visible.mirrored != 0u ? -normal : normal;
+	if (!HAS_DISPLACEMENT || base.height_map == NO_INDEX || dot(normal, normal) == 0.0)
+		return normal;
+	vec3 direction = placedDirection(normalize(authored), placement);
+	HeightSource source = ownHeightSource(corners, base.height_map, weights);
+	float level = pixelHeightLevel(point, placement, source.density, HEIGHT_MAP(frame_surface, base.height_map, level_count), view);
+	HeightSlope height = displacementSlope(frame_surface, base.height_map, source.uv, level);
+	pixel.displacement = height.height * view.displacement_scale;
+	vec2 slope = height.slope * view.displacement_scale;
+	return turnedNormal(normalize(normal), place.by_u, place.by_v, direction, dot(slope, corners.uv0 - corners.uv2), dot(slope, corners.uv1 - corners.uv2));
+}
+
 bool showsBothSides(uint material)
 {
 	if (!HAS_MIXED_SIDES)
 		return !HAS_SINGLE_SIDED;
 	return (args.inputs.material_flags.at[material] & MATERIAL_DOUBLE_SIDED) != 0u;
+}
+
+// The corners again, read once the place is known and not before: what is held while it is searched decides how many threads are resident. No
+// weight is that large.
+TriangleCorners cornersAfter(BaseTriangle base, SurfacePlace place)
+{
+	uint none = place.weights.x > 1e6 ? 1u : 0u;
+	base.v0 += none;
+	base.v1 += none;
+	base.v2 += none;
+	return triangleCorners(frame_surface, base);
 }
 
 // The place and normal from where the pixel's depth lies.
@@ -99,8 +137,7 @@ void placeByDepth(inout SurfacePixel pixel, float depth, vec2 centre, View view)
 	vec3 point = visiblePoint(pixelRay(centre, view), depth, view);
 	SurfacePlace place = placeOf(point, corners, visible.placement, start);
 	pixel.weights = insideBarycentrics(place.weights);
-	vec3 normal = smoothNormal(pixel, view);
-	normal = visible.mirrored != 0u ? -normal : normal;
+	vec3 normal = smoothNormalAt(pixel, cornersAfter(visible.base, place), place, point, view);
 	pixel.normal = normalize(dot(normal, normal) > 0.0 ? normal : pixel.to_eye);
 	if (dot(pixel.normal, pixel.to_eye) < 0.0 && showsBothSides(visible.material))
 		pixel.normal = -pixel.normal;

@@ -86,7 +86,7 @@ uint32_t tileRows(const Device& device)
 {
 	if (device.limits.compute_workgroup_threads > 0)
 		return std::clamp(device.limits.compute_workgroup_threads / 16, 1u, 16u);
-	return device.is_cpu ? 1 : 16;
+	return device.is_cpu ? 1 : 8;
 }
 
 // Threads per workgroup of the shaders that take it as constant 0; rows of those that take tiles.
