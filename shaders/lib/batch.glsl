@@ -24,7 +24,7 @@ PatternRange patternOf(RasterInputs inputs, DomainPiece piece)
 }
 
 // The pattern of a staged part; without its counts.
-PatternRange partPattern(uint part) { return PatternRange(part_patterns[part] & 0xffffu, part_patterns[part] >> 16, 0u); }
+PatternRange partPattern(uint part) { return PatternRange(part_patterns[part] & 0xffffu, part_patterns[part] >> 16, 0u, 0u); }
 
 // One lane a part.
 void loadPart(RasterInputs inputs, uint part, PartPlace place, uint first_offsets, DomainPiece piece)

@@ -18,8 +18,9 @@ struct DisplacedBounds
 	float reach_high;
 	vec3 cone_axis;     // normal cone of the base triangles, unit
 	float cone_cutoff;  // back-facing when dot(axis, direction from eye) >= cutoff * length; above 1: never (see scene/)
+	float unused[2];    // to a multiple of 16 bytes, so that devices read four words at once
 };
-SHARED_LAYOUT(DisplacedBounds, 72, cone_cutoff, 68)
+SHARED_LAYOUT(DisplacedBounds, 80, unused, 72)
 
 // What displacement can do within a base triangle, whoever owns its edges and corners, while no mip coarser than
 // REACH_FINE_MIP or REACH_COARSE_MIP is read. Intervals as DisplacedBounds.reach_low and reach_high.

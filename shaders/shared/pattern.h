@@ -12,8 +12,9 @@ struct PatternRange
 	uint first_triangle;
 	uint first_vertex;
 	uint counts;  // triangles | vertices << 16
+	uint unused;  // to 16 bytes, so that devices read it at once
 };
-SHARED_LAYOUT(PatternRange, 12, counts, 8)
+SHARED_LAYOUT(PatternRange, 16, unused, 12)
 
 // The table as a stage sees it.
 struct TableView

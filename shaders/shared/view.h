@@ -53,9 +53,10 @@ struct InstanceRecord
 	vec3 translation_low;
 	float inverse_scale_squared;  // 1 / (world units per mesh unit)^2, for mip levels
 	uint mesh;
-	uint mirrored;  // 1: negative determinant, triangles turn over
+	uint mirrored;   // 1: negative determinant, triangles turn over
+	uint unused[2];  // to a multiple of 16 bytes, so that devices read four words at once
 };
-SHARED_LAYOUT(InstanceRecord, 72, mirrored, 68)
+SHARED_LAYOUT(InstanceRecord, 80, unused, 72)
 
 // Mesh to camera-relative, scaled: the translation is the difference of two-float sums, exact where it matters (near the eye).
 struct Placement

@@ -81,12 +81,12 @@ void recordBarrier(VkCommandBuffer commands, const PlanStep& step)
 }
 
 // Rows of 16 threads of the shaders that take a tile of 16 x 16 at a time: on a processor, where a workgroup's threads take turns at every
-// barrier, one.
-uint32_t tileRows(const Device& device)
+// barrier, one; else `most`.
+uint32_t tileRows(const Device& device, uint32_t most)
 {
 	if (device.limits.compute_workgroup_threads > 0)
 		return std::clamp(device.limits.compute_workgroup_threads / 16, 1u, 16u);
-	return device.is_cpu ? 1 : 8;
+	return device.is_cpu ? 1 : most;
 }
 
 // Threads per workgroup of the shaders that take it as constant 0; rows of those that take tiles.
@@ -95,8 +95,10 @@ uint32_t workgroupThreads(const Device& device, const PassDesc& pass)
 	const std::string_view shader = pass.shaders.front();
 	if (shader.ends_with(".mesh"))
 		return device.limits.mesh_workgroup_threads;
-	if (shader == "shading/shade.comp" || shader == "culling/depth_pyramid.comp")
-		return tileRows(device);
+	if (shader == "shading/shade.comp")
+		return tileRows(device, 8);
+	if (shader == "culling/depth_pyramid.comp")
+		return tileRows(device, 16);
 	if (device.limits.compute_workgroup_threads > 0)
 		return device.limits.compute_workgroup_threads;
 	if (device.is_cpu)

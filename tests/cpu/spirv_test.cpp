@@ -117,7 +117,7 @@ std::vector<HostLayout> hostLayouts()
 {
 	return {
 		viewLayout(),
-		LAYOUT(8, InstanceRecord, row0, row1, row2, translation_high, translation_low, inverse_scale_squared, mesh, mirrored),
+		LAYOUT(9, InstanceRecord, row0, row1, row2, translation_high, translation_low, inverse_scale_squared, mesh, mirrored, unused),
 		LAYOUT(4, ClusterRecord, first_vertex, first_triangle, counts, material),
 		LAYOUT(2, MeshRecord, first_cluster, cluster_count),
 		LAYOUT(2, ClusterRef, instance, cluster),
@@ -134,10 +134,10 @@ std::vector<HostLayout> hostLayouts()
 		LAYOUT(3, ClusterGroup, instance, first_cluster, cluster_count),
 		LAYOUT(3, FullCluster, visible_cluster, first_vertex, phase),
 		LAYOUT(3, Batch, parts, counts, first_vertex),
-		LAYOUT(3, PatternRange, first_triangle, first_vertex, counts),
+		LAYOUT(4, PatternRange, first_triangle, first_vertex, counts, unused),
 		LAYOUT(3, TableView, patterns, vertices, triangles),
 		LAYOUT(1, DomainTriangle, words),
-		LAYOUT(8, DisplacedBounds, low, high, direction_low, direction_high, reach_low, reach_high, cone_axis, cone_cutoff),
+		LAYOUT(9, DisplacedBounds, low, high, direction_low, direction_high, reach_low, reach_high, cone_axis, cone_cutoff, unused),
 		LAYOUT(7, RasterInputs, instances, clusters, visible_clusters, part_triangles, part_places, material_flags, table),
 		LAYOUT(5, MaterialRecord, base_color, emissive, metallic, roughness, color_texture),
 		LAYOUT(4, ShadingData, normals, color_uvs, colors, materials),
