@@ -29,6 +29,9 @@ public:
 
 	// Makes and fills what the plan keeps and does not exist yet.
 	Status prepare(const FramePlan& plan, const PlanInput& input);
+	// Lets go of what other options make stale: lists of other capacities, pictures of another size, and, with the next plan, what that
+	// does not keep. Nothing of it may be in use. Errors: those of listCapacities; then nothing has changed.
+	Status refit(const PlanInput& before, const PlanInput& after);
 	// Makes a list that grows on demand hold `wanted`. True when its capacity has changed, or cannot any more and decides the rate from now
 	// on (decidingLists): the frame can be drawn again. False when nothing has changed.
 	bool grow(const ListDesc& list, uint32_t wanted, const PlanInput& input);
@@ -70,6 +73,7 @@ private:
 	FrameResources(Device& device, const BuiltScene& scene, const TessellationTable& table) : device_(device), scene_(scene), table_(table) {}
 	// Which of the two pyramids is this frame's, and what the frame before it saw.
 	void writeHistory(const View& view, bool makes_pyramid);
+	void dropUnkept(const FramePlan& plan);
 	Status make(std::string_view name, const PlanInput& input);
 	Status upload(std::string_view name, std::span<const std::byte> bytes);
 	Status allocate(std::string_view name, uint64_t bytes);
@@ -101,6 +105,7 @@ private:
 	bool had_history_ = false;        // and the frame before it had too
 	std::vector<RateStep> steps_;     // as uploaded
 	uint32_t fixed_lists_ = 0;        // bit per list that grows no more
+	bool is_refitted_ = false;        // the next plan says what is kept of what there is
 
 public:
 	~FrameResources();

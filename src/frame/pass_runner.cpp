@@ -1,6 +1,7 @@
 #include "frame/pass_runner.h"
 
 #include "base/check.h"
+#include "gpu/spirv_constants.h"
 
 #include <algorithm>
 
@@ -130,39 +131,86 @@ PassRunner::~PassRunner()
 	vkDestroyQueryPool(device_.handle, queries_, nullptr);
 }
 
-Status PassRunner::makePipeline(const PassDesc& pass, const Constants& constants, const PlanInput& input)
+Status PassRunner::load(std::string_view name, LoadedShaders& shaders)
+{
+	if (shaders.find(name) != shaders.end())
+		return {};
+	LoadedShader loaded;
+	TRY_ASSIGN(loaded.shader, loadShader(name));
+	loaded.constants = usedConstants(loaded.shader.words);
+	shaders.emplace(name, std::move(loaded));
+	return {};
+}
+
+Result<const Shader*> PassRunner::shader(std::string_view name)
+{
+	TRY(load(name, shaders_));
+	return &shaders_.find(name)->second.shader;
+}
+
+Result<PassRunner::PipelineKey> PassRunner::keyOf(const PassDesc& pass, const FramePlan& plan)
+{
+	PipelineKey key = { pass.shaders.front(), {} };
+	for (std::string_view name : pass.shaders)
+	{
+		TRY(load(name, shaders_));
+		const std::set<uint32_t>& used = shaders_.find(name)->second.constants;
+		for (const Feature& feature : plan.features)
+			if (used.count(feature.constant_id))
+				key.second[feature.constant_id] = feature.on ? 1 : 0;
+		if (used.count(0))
+			key.second[0] = workgroupThreads(device_, pass);
+	}
+	return key;
+}
+
+Status PassRunner::makePipeline(const PassDesc& pass, const PipelineKey& key, const PlanInput& input)
 {
 	setWorkingOn(fmt::format("pipeline of pass {}", pass.name));
 	std::vector<Shader> shaders;
 	for (std::string_view name : pass.shaders)
-	{
-		TRY_ASSIGN(Shader shader, loadShader(name));
-		shaders.push_back(std::move(shader));
-	}
+		shaders.push_back(shaders_.find(name)->second.shader);
 	const VkPipelineLayout layout = resources_.bindless().layout();
 	if (shaders.size() == 1)
 	{
-		TRY_ASSIGN(pipelines_[pass.shaders.front()], makeComputePipeline(device_, layout, shaders.front(), constants));
+		TRY_ASSIGN(Pipeline made, makeComputePipeline(device_, layout, shaders.front(), key.second));
+		pipelines_[key] = std::move(made);
 		return {};
 	}
 	DrawState state;
 	state.cull = cullMode(input.scene);
-	TRY_ASSIGN(pipelines_[pass.shaders.front()], makeDrawPipeline(device_, layout, shaders, constants, state));
+	TRY_ASSIGN(Pipeline made, makeDrawPipeline(device_, layout, shaders, key.second, state));
+	pipelines_[key] = std::move(made);
 	return {};
 }
 
 Status PassRunner::preparePipelines(const FramePlan& plan, const PlanInput& input)
 {
-	Constants constants;
-	for (const Feature& feature : plan.features)
-		constants[feature.constant_id] = feature.on ? 1 : 0;
+	step_pipelines_.clear();
 	for (const PlanStep& step : plan.steps)
-		if (!pipelines_.count(step.pass->shaders.front()))
-		{
-			constants[0] = workgroupThreads(device_, *step.pass);
-			TRY(makePipeline(*step.pass, constants, input));
-		}
+	{
+		TRY_ASSIGN(const PipelineKey key, keyOf(*step.pass, plan));
+		if (!pipelines_.count(key))
+			TRY(makePipeline(*step.pass, key, input));
+		step_pipelines_.push_back(&pipelines_.at(key));
+	}
 	return {};
+}
+
+Status PassRunner::replaceShaders(std::span<const Shader> shaders, const FramePlan& plan, const PlanInput& input)
+{
+	LoadedShaders shaders_before = shaders_;
+	Pipelines pipelines_before;
+	pipelines_before.swap(pipelines_);
+	for (const Shader& shader : shaders)
+		shaders_[shader.name] = { shader, usedConstants(shader.words) };
+	const Status made = preparePipelines(plan, input);
+	if (made)
+		return {};
+	shaders_.swap(shaders_before);
+	pipelines_.swap(pipelines_before);
+	TRY(preparePipelines(plan, input));
+	return made;
 }
 
 void PassRunner::stamp(uint32_t index)
@@ -193,7 +241,7 @@ Status PassRunner::record(const FramePlan& plan, const PlanInput& input)
 			device_.functions.begin_label(commands, &label);
 		}
 		recordBarrier(commands, step);
-		PassContext context(device_, commands, resources_, pipelines_.at(step.pass->shaders.front()), resources_.bindless().layout(), step, input);
+		PassContext context(device_, commands, resources_, *step_pipelines_.at(i), resources_.bindless().layout(), step, input);
 		step.pass->record(context);
 		if (device_.functions.end_label)
 			device_.functions.end_label(commands);

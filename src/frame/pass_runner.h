@@ -4,6 +4,7 @@
 #include "frame/pass_context.h"
 
 #include <map>
+#include <set>
 
 namespace tessera
 {
@@ -16,8 +17,13 @@ public:
 	PassRunner(const PassRunner&) = delete;
 	PassRunner& operator=(const PassRunner&) = delete;
 
-	// Makes the pipelines of passes that have none yet. Features never depend on the view, so this happens once per pass.
+	// Makes the pipelines that are missing for the plan's features. Those of other features stay, so going back to them costs nothing.
 	Status preparePipelines(const FramePlan& plan, const PlanInput& input);
+
+	// Draws with other shaders from now on. All pipelines in use are made of them first; when one cannot be, none is replaced.
+	Status replaceShaders(std::span<const Shader> shaders, const FramePlan& plan, const PlanInput& input);
+	// The shader that pipelines are made of. Errors: those of loadShader.
+	Result<const Shader*> shader(std::string_view name);
 
 	// Records every step of the plan between two timestamps each.
 	Status record(const FramePlan& plan, const PlanInput& input);
@@ -29,12 +35,27 @@ public:
 
 private:
 	PassRunner(Device& device, FrameResources& resources) : device_(device), resources_(resources) {}
-	Status makePipeline(const PassDesc& pass, const Constants& constants, const PlanInput& input);
+	// A shader and the constants that it reads.
+	struct LoadedShader
+	{
+		Shader shader;
+		std::set<uint32_t> constants;
+	};
+	using LoadedShaders = std::map<std::string, LoadedShader, std::less<>>;
+	// First shader (passes may share one) and the constants that its pipeline reads.
+	using PipelineKey = std::pair<std::string_view, Constants>;
+	using Pipelines = std::map<PipelineKey, Pipeline>;
+
+	static Status load(std::string_view name, LoadedShaders& shaders);
+	Result<PipelineKey> keyOf(const PassDesc& pass, const FramePlan& plan);
+	Status makePipeline(const PassDesc& pass, const PipelineKey& key, const PlanInput& input);
 	void stamp(uint32_t index);
 
 	Device& device_;
 	FrameResources& resources_;
-	std::map<std::string_view, Pipeline> pipelines_;  // by first shader: passes may share one
+	LoadedShaders shaders_;
+	Pipelines pipelines_;
+	std::vector<const Pipeline*> step_pipelines_;  // of the plan that was prepared last
 	VkQueryPool queries_ = VK_NULL_HANDLE;
 	size_t step_count_ = 0;
 	std::vector<double> step_ms_;

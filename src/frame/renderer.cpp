@@ -1,17 +1,14 @@
 #include "frame/renderer.h"
 
 #include "base/check.h"
-#include "frame/occlusion_controller.h"
-#include "frame/pass_runner.h"
+#include "frame/frame_outcome.h"
 #include "frame/rate_controller.h"
 #include "frame/rate_steps.h"
 #include "plan/conditions.h"
 #include "scene/factor_rule.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <map>
 
 namespace tessera
 {
@@ -61,25 +58,37 @@ public:
 
 	Result<FrameResult> renderFrame(const Camera& camera, const RoundReader& after_round) override
 	{
-		controller_.beginFrame(!rate_changed_ && camera == last_camera_);
-		rate_changed_ = false;
-		last_camera_ = camera;
-		after_round_ = after_round;
-		growAhead();
-		for (uint32_t attempts = 1;; ++attempts)
+		TRY(beginFrame(camera, after_round));
+		for (;;)
 		{
-			const Attempt attempt = controller_.next();
-			if (attempt.rounds > kMostRounds)
-				return badInput("{}: the frame needs more than {} rounds; make its lists larger (--capacity)", scene_.path, kMostRounds);
-			TRY_ASSIGN(FrameResult result, drawAttempt(camera, attempt));
-			result.attempts = attempts;
-			if (grew_)
-				continue;
-			if (!controller_.accept(outcome_))
-				continue;
-			judgeOcclusion(result);
-			return result;
+			TRY(resources_->commands().wait());
+			TRY_ASSIGN(const std::optional<FrameResult> result, advance());
+			if (result)
+				return *result;
 		}
+	}
+
+	Status beginFrame(const Camera& camera, const RoundReader& after_round) override
+	{
+		CHECK(!runs_, "a frame is drawn already");
+		controller_.beginFrame(!rate_changed_ && camera == camera_);
+		rate_changed_ = false;
+		camera_ = camera;
+		after_round_ = after_round;
+		attempts_ = 0;
+		growAhead();
+		return startAttempt();
+	}
+
+	Result<std::optional<FrameResult>> pollFrame() override
+	{
+		CHECK(runs_, "no frame is drawn");
+		const auto finished = resources_->commands().isFinished();
+		runs_ = finished.has_value();
+		TRY(finished);
+		if (!*finished)
+			return std::optional<FrameResult>();
+		return advance();
 	}
 
 	void setRate(float rate_px) override
@@ -88,6 +97,19 @@ public:
 		CHECK((rate_px > 0) == (options.rate > 0) && options.raster != Raster::Auto, "rate {} after {}", rate_px, options.rate);
 		rate_changed_ = rate_px != options.rate;
 		options.rate = rate_px;
+	}
+
+	Status setOptions(const RenderOptions& options) override
+	{
+		CHECK(!runs_, "a frame is drawn");
+		PlanInput input = input_;
+		input.options = options;
+		TRY(checkGates(device_, input));
+		TRY(resources_->refit(input_, input));
+		input_ = std::move(input);
+		rate_changed_ = true;
+		occlusion_ = {};
+		return {};
 	}
 
 	Result<std::vector<uint8_t>> readPicture() override
@@ -143,24 +165,73 @@ private:
 		return planFrame(passes_, resourceDescs(), outputs_, input_);
 	}
 
-	// One attempt: plans, draws all rounds, and leaves in outcome_ whether everything fitted at one rate.
-	Result<FrameResult> drawAttempt(const Camera& camera, const Attempt& attempt)
+	// Plans the next attempt at the frame and submits its first round.
+	Status startAttempt()
 	{
+		attempt_ = controller_.next();
+		runs_ = false;
+		if (attempt_.rounds > kMostRounds)
+			return badInput("{}: the frame needs more than {} rounds; make its lists larger (--capacity)", scene_.path, kMostRounds);
+		++attempts_;
 		grew_ = false;
-		outcome_ = { true, true, attempt.coarsening };
-		TRY_ASSIGN(plan_, planFor(camera, attempt));
+		outcome_ = { true, true, attempt_.coarsening };
+		TRY_ASSIGN(plan_, planFor(camera_, attempt_));
 		TRY(resources_->prepare(plan_, input_));
 		TRY(runner_->preparePipelines(plan_, input_));
-		FrameResult result;
-		result.rounds = attempt.rounds;
-		const auto goes_on = [&] {
-			return outcome_.fits && !grew_ && (attempt.rounds == 1 || outcome_.coarsening == attempt.coarsening);
-		};
-		for (uint32_t round = 0; round < attempt.rounds && goes_on(); ++round)
-			TRY(drawRound(attempt, round, result));
-		grant(attempt, result);
-		fillLists(result);
-		return result;
+		result_ = {};
+		result_.rounds = attempt_.rounds;
+		return submitRound(0);
+	}
+
+	Status submitRound(uint32_t round)
+	{
+		CommandRecorder& commands = resources_->commands();
+		round_ = round;
+		TRY(commands.begin());
+		TRY(resources_->writeView(view_, round, plan_.has("depth_pyramid"), steps_));
+		if (round == 0 && rounds_left_over_)
+			resources_->clearVisibility();
+		rounds_left_over_ = round + 1 < attempt_.rounds;
+		TRY(runner_->record(plan_, input_));
+		resources_->recordCountsReadback(commands.buffer());
+		TRY(commands.submit());
+		runs_ = true;
+		return {};
+	}
+
+	// A round is finished: takes what the device says of it. Submits the next round or attempt, or ends the frame.
+	Result<std::optional<FrameResult>> advance()
+	{
+		runs_ = false;
+		TRY(endRound());
+		const bool goes_on = outcome_.fits && !grew_ && (attempt_.rounds == 1 || outcome_.coarsening == attempt_.coarsening);
+		if (goes_on && round_ + 1 < attempt_.rounds)
+		{
+			TRY(submitRound(round_ + 1));
+			return std::optional<FrameResult>();
+		}
+		grant(attempt_, result_);
+		fillLists(*resources_, result_);
+		result_.attempts = attempts_;
+		if (grew_ || !controller_.accept(outcome_))
+		{
+			TRY(startAttempt());
+			return std::optional<FrameResult>();
+		}
+		judgeOcclusion();
+		return std::optional<FrameResult>(std::move(result_));
+	}
+
+	Status endRound()
+	{
+		TRY(runner_->readTimes());
+		addTimes(*runner_, plan_, result_);
+		judge(attempt_);
+		addCounts(*resources_, result_.counts);
+		if (!outcome_.fits || grew_)
+			return {};
+		TRY_ASSIGN(grew_, resources_->growDump());
+		return after_round_ && !grew_ ? after_round_(round_) : Status{};
 	}
 
 	// What the device made of the rate, as if it had been asked for.
@@ -178,40 +249,6 @@ private:
 		view_.rate_over_focal_squared = steps_[step].rate_over_focal_squared;
 		view_.sample_over_focal_squared = steps_[step].sample_over_focal_squared;
 		result.every_factor_one = step + 1 == steps_.size();
-	}
-
-	Status drawRound(const Attempt& attempt, uint32_t round, FrameResult& result)
-	{
-		CommandRecorder& commands = resources_->commands();
-		TRY(commands.begin());
-		TRY(resources_->writeView(view_, round, plan_.has("depth_pyramid"), steps_));
-		if (round == 0 && rounds_left_over_)
-			resources_->clearVisibility();
-		rounds_left_over_ = round + 1 < attempt.rounds;
-		TRY(runner_->record(plan_, input_));
-		resources_->recordCountsReadback(commands.buffer());
-		TRY(commands.submitAndWait());
-		TRY(runner_->readTimes());
-		addTimes(result);
-		judge(attempt);
-		addCounts(result);
-		if (!outcome_.fits || grew_)
-			return {};
-		TRY_ASSIGN(grew_, resources_->growDump());
-		return after_round_ && !grew_ ? after_round_(round) : Status{};
-	}
-
-	void addTimes(FrameResult& result) const
-	{
-		result.gpu_ms += runner_->totalMs();
-		for (size_t i = 0; i < plan_.steps.size(); ++i)
-		{
-			const std::string_view name = plan_.steps[i].pass->name;
-			auto found = std::find_if(result.passes.begin(), result.passes.end(), [&](const PassTime& time) { return time.name == name; });
-			if (found == result.passes.end())
-				found = result.passes.insert(result.passes.end(), { std::string(name), 0 });
-			found->gpu_ms += runner_->stepMs()[i];
-		}
 	}
 
 	// What the device said: which rate, and did every list hold what was wanted at it?
@@ -238,18 +275,10 @@ private:
 	}
 
 	// Did looking for what is hidden pay in this frame?
-	void judgeOcclusion(const FrameResult& result)
+	void judgeOcclusion()
 	{
-		const auto took = [&](std::string_view pass) {
-			const auto found = std::find_if(result.passes.begin(), result.passes.end(), [&](const PassTime& time) { return time.name == pass; });
-			return found == result.passes.end() ? 0 : found->gpu_ms;
-		};
-		OcclusionOutcome outcome;
-		outcome.parts = result.counts.part_triangles;
-		outcome.left_out = result.counts.hidden_parts - std::min(result.counts.hidden_parts, result.counts.revealed_parts);
-		outcome.raster_ms = took("raster_micro");
-		outcome.looking_ms = took("depth_pyramid") + took("retest_parts") + took("raster_revealed");
-		const bool looked = result.rounds == 1 && plan_.has("depth_pyramid") && resources_->hadHistory();
+		const bool looked = result_.rounds == 1 && plan_.has("depth_pyramid") && resources_->hadHistory();
+		const OcclusionOutcome outcome = occlusionOutcome(result_);
 		occlusion_.endFrame(looked ? &outcome : nullptr);
 	}
 
@@ -277,31 +306,6 @@ private:
 		}
 	}
 
-	void addCounts(FrameResult& result) const
-	{
-		const FrameCounts counts = resources_->counts();
-		FrameCountsRead& sum = result.counts;
-		sum.visible_clusters += resources_->head(LIST_VISIBLE_CLUSTERS).wanted;
-		sum.full_clusters += resources_->head(LIST_FULL_CLUSTERS).wanted;
-		sum.part_triangles += resources_->head(LIST_PART_TRIANGLES).wanted;
-		sum.split_triangles += resources_->head(LIST_SPLIT_TRIANGLES).wanted;
-		sum.micro_triangles += (uint64_t(counts.micro_high) << 32 | counts.micro_low) + counts.full_cluster_triangles;
-		sum.hidden_parts += counts.hidden_parts;
-		sum.revealed_parts += counts.revealed_parts;
-		sum.covered_pixels = counts.covered_pixels;  // of the whole depth image, so the last round's count is the frame's
-	}
-
-	void fillLists(FrameResult& result) const
-	{
-		for (const ListDesc& list : listDescs())
-		{
-			if (!resources_->has(list.name))
-				continue;
-			const ListHead head = resources_->head(list.index);
-			result.lists.push_back({ std::string(list.name), head.wanted, head.capacity, head.peak, head.peak_used, listBytes(list, head.capacity) });
-		}
-	}
-
 	Device& device_;
 	const BuiltScene& scene_;
 	const TessellationTable& table_;
@@ -314,9 +318,14 @@ private:
 	std::unique_ptr<PassRunner> runner_;
 	RateController controller_;
 	OcclusionController occlusion_;
-	AttemptOutcome outcome_;
-	Camera last_camera_ = {};
+	// The frame that is drawn, or was last.
+	bool runs_ = false;  // a round is submitted and not yet taken
+	Camera camera_ = {};
 	RoundReader after_round_;
+	uint32_t attempts_ = 0, round_ = 0;
+	Attempt attempt_;
+	AttemptOutcome outcome_;
+	FrameResult result_;
 	bool rate_changed_ = false;
 	std::vector<RateStep> steps_;    // candidates of the attempt
 	bool rounds_left_over_ = false;  // the last attempt ended between rounds: what it saw is still in the visibility buffer

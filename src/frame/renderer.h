@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace tessera
@@ -33,6 +34,16 @@ public:
 
 	// One picture. When lists overflow it is counted again at a coarser rate until it fits; nothing is dropped (C2).
 	virtual Result<FrameResult> renderFrame(const Camera& camera, const RoundReader& after_round = {}) = 0;
+
+	// The same without waiting: submits the frame, and says from time to time whether it is there. Until then pollFrame draws it again as often as
+	// needed and gives nothing; the picture is that of a whole frame only when it has given a result. One frame at a time; after an
+	// error the frame is over.
+	virtual Status beginFrame(const Camera& camera, const RoundReader& after_round = {}) = 0;
+	virtual Result<std::optional<FrameResult>> pollFrame() = 0;
+
+	// Other options for the frames that follow, between two frames. Remakes what they make stale and keeps the scene and every pipeline.
+	// Errors: those of create; then the options are as before.
+	virtual Status setOptions(const RenderOptions& options) = 0;
 
 	// Another rate for the frames that follow, pixels. Pipelines are specialised by whether it is 0 and lists by the raster path, so neither
 	// may change: both rates 0 or both above, and the raster path not `auto`.

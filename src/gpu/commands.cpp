@@ -1,5 +1,7 @@
 #include "gpu/commands.h"
 
+#include "base/check.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -25,19 +27,22 @@ Result<std::unique_ptr<CommandRecorder>> CommandRecorder::create(Device& device)
 
 CommandRecorder::~CommandRecorder()
 {
+	if (is_submitted_)
+		vkWaitForFences(device_.handle, 1, &fence_, VK_TRUE, UINT64_MAX);
 	vkDestroyFence(device_.handle, fence_, nullptr);
 	vkDestroyCommandPool(device_.handle, pool_, nullptr);
 }
 
 Status CommandRecorder::begin()
 {
+	CHECK(!is_submitted_, "recording over commands that run");
 	VkCommandBufferBeginInfo begin = { VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO };
 	begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
 	VK_TRY(vkBeginCommandBuffer(buffer_, &begin), "beginning commands");
 	return {};
 }
 
-Status CommandRecorder::submitAndWait()
+Status CommandRecorder::submit()
 {
 	VK_TRY(vkEndCommandBuffer(buffer_), "recording commands");
 	VkCommandBufferSubmitInfo command = { VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO };
@@ -46,9 +51,36 @@ Status CommandRecorder::submitAndWait()
 	submit.commandBufferInfoCount = 1;
 	submit.pCommandBufferInfos = &command;
 	VK_TRY(vkQueueSubmit2(device_.queue, 1, &submit, fence_), "submitting commands");
+	is_submitted_ = true;
+	return {};
+}
+
+Result<bool> CommandRecorder::isFinished()
+{
+	if (!is_submitted_)
+		return true;
+	const VkResult status = vkGetFenceStatus(device_.handle, fence_);
+	if (status == VK_NOT_READY)
+		return false;
+	VK_TRY(status, "asking whether the device is done");
+	TRY(wait());
+	return true;
+}
+
+Status CommandRecorder::wait()
+{
+	if (!is_submitted_)
+		return {};
 	VK_TRY(vkWaitForFences(device_.handle, 1, &fence_, VK_TRUE, UINT64_MAX), "waiting for the device");
 	VK_TRY(vkResetFences(device_.handle, 1, &fence_), "resetting the fence");
+	is_submitted_ = false;
 	return {};
+}
+
+Status CommandRecorder::submitAndWait()
+{
+	TRY(submit());
+	return wait();
 }
 
 void fullBarrier(VkCommandBuffer commands)

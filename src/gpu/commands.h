@@ -1,4 +1,4 @@
-// Command buffers: one-off work with a wait (uploads), and the frame's own buffer with its fence.
+// Command buffers: one-off work with a wait (uploads), and a frame's own buffer with its fence, which can be asked instead.
 #pragma once
 #include "gpu/resources.h"
 
@@ -18,7 +18,11 @@ public:
 	// Begins the one command buffer; what it held before must be finished.
 	Status begin();
 	VkCommandBuffer buffer() const { return buffer_; }
-	// Ends, submits and waits. Errors: DeviceLost.
+	// Ends and submits, without waiting. Errors: DeviceLost, as of those below.
+	Status submit();
+	// Whether the device is done with what was submitted last; never waits. True when nothing was.
+	Result<bool> isFinished();
+	Status wait();
 	Status submitAndWait();
 
 private:
@@ -27,6 +31,7 @@ private:
 	VkCommandPool pool_ = VK_NULL_HANDLE;
 	VkCommandBuffer buffer_ = VK_NULL_HANDLE;
 	VkFence fence_ = VK_NULL_HANDLE;
+	bool is_submitted_ = false;
 };
 
 // Copies bytes into a new device-local buffer, in pieces through one staging buffer.

@@ -50,13 +50,13 @@ bool hasLayer(const char* name)
 	return std::any_of(properties.begin(), properties.end(), [&](const auto& p) { return std::strcmp(p.layerName, name) == 0; });
 }
 
-Result<VkInstance> createInstance(bool validate)
+Result<VkInstance> createInstance(bool validate, const std::vector<const char*>& more_extensions = {})
 {
 	VkApplicationInfo application = { VK_STRUCTURE_TYPE_APPLICATION_INFO };
 	application.pApplicationName = "tessera";
 	application.apiVersion = VK_API_VERSION_1_3;
 
-	std::vector<const char*> extensions;
+	std::vector<const char*> extensions = more_extensions;
 	if (hasInstanceExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME) || validate)
 		extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
 	std::vector<const char*> layers;
@@ -139,7 +139,7 @@ Result<VkPhysicalDevice> chooseDevice(VkInstance instance, const std::string& wa
 	return fail(ExitCode::DeviceCannot, "--device {}: no such device; there are: {}", wanted, describeDevices(devices));
 }
 
-Result<uint32_t> chooseQueueFamily(VkPhysicalDevice physical)
+Result<uint32_t> chooseQueueFamily(VkInstance instance, VkPhysicalDevice physical, const DeviceRequest& request)
 {
 	uint32_t count = 0;
 	vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
@@ -147,8 +147,11 @@ Result<uint32_t> chooseQueueFamily(VkPhysicalDevice physical)
 	vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
 	constexpr VkQueueFlags kWanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
 	for (uint32_t i = 0; i < count; ++i)
-		if ((families[i].queueFlags & kWanted) == kWanted)
+		if ((families[i].queueFlags & kWanted) == kWanted && (!request.can_present || request.can_present(instance, physical, i)))
 			return i;
+	if (request.can_present)
+		return fail(ExitCode::DeviceCannot, "{}: cannot show pictures in a window; `tessera render` needs none, --device takes another",
+					propertiesOf(physical).deviceName);
 	return fail(ExitCode::DeviceCannot, "{}: no queue with graphics and compute", propertiesOf(physical).deviceName);
 }
 
@@ -170,9 +173,9 @@ struct DeviceBuilder
 			create(device.instance, &info, nullptr, &device.messenger_);
 	}
 
-	static Status createLogicalDevice(Device& device, bool pipeline_statistics)
+	static Status createLogicalDevice(Device& device, const DeviceRequest& request)
 	{
-		TRY_ASSIGN(device.queue_family, chooseQueueFamily(device.physical));
+		TRY_ASSIGN(device.queue_family, chooseQueueFamily(device.instance, device.physical, request));
 		DeviceFeatures features;
 		TRY(features.query(device.physical, device.name));
 		device.gates = features.gates();
@@ -184,12 +187,15 @@ struct DeviceBuilder
 		queue.queueCount = 1;
 		queue.pQueuePriorities = &priority;
 		VkDeviceCreateInfo info = { VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO };
-		info.pNext = features.enabledChain(pipeline_statistics);
-		device.pipeline_statistics = pipeline_statistics && device.gates.pipeline_statistics;
+		info.pNext = features.enabledChain(request.pipeline_statistics);
+		device.pipeline_statistics = request.pipeline_statistics && device.gates.pipeline_statistics;
 		info.queueCreateInfoCount = 1;
 		info.pQueueCreateInfos = &queue;
-		info.enabledExtensionCount = static_cast<uint32_t>(features.extensions().size());
-		info.ppEnabledExtensionNames = features.extensions().data();
+		std::vector<const char*> extensions = features.extensions();
+		if (request.can_present)
+			extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+		info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+		info.ppEnabledExtensionNames = extensions.data();
 		VK_TRY(vkCreateDevice(device.physical, &info, nullptr, &device.handle), "{}: creating the device", device.name);
 		vkGetDeviceQueue(device.handle, device.queue_family, 0, &device.queue);
 		return {};
@@ -222,12 +228,12 @@ struct DeviceBuilder
 Result<std::unique_ptr<Device>> Device::create(const DeviceRequest& request)
 {
 	std::unique_ptr<Device> device(new Device);
-	TRY_ASSIGN(device->instance, createInstance(request.validate));
+	TRY_ASSIGN(device->instance, createInstance(request.validate, request.instance_extensions));
 	if (request.validate)
 		DeviceBuilder::createMessenger(*device);
 	TRY_ASSIGN(device->physical, chooseDevice(device->instance, request.name));
 	describeDevice(*device);
-	TRY(DeviceBuilder::createLogicalDevice(*device, request.pipeline_statistics));
+	TRY(DeviceBuilder::createLogicalDevice(*device, request));
 	DeviceBuilder::loadFunctions(*device);
 	TRY_ASSIGN(device->allocator, createAllocator(*device));
 	VkPipelineCacheCreateInfo cache = { VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO };

@@ -4,6 +4,7 @@
 #include "gpu/vulkan.h"
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -17,6 +18,10 @@ struct DeviceRequest
 	std::string name;                  // part of a device's name or its number in the system's order; empty: the fastest kind there is
 	bool validate = false;             // core and synchronisation validation
 	bool pipeline_statistics = false;  // print what each compute pipeline was compiled to (pipeline_statistics.h)
+	// For a window: what its surface needs of the instance, and whether a queue family can show pictures in it. Without `can_present`
+	// the device is not asked for a swapchain.
+	std::vector<const char*> instance_extensions;
+	std::function<bool(VkInstance, VkPhysicalDevice, uint32_t family)> can_present;
 };
 
 struct DeviceLimits

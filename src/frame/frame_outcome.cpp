@@ -1,0 +1,59 @@
+#include "frame/frame_outcome.h"
+
+#include <algorithm>
+
+namespace tessera
+{
+
+void addTimes(const PassRunner& runner, const FramePlan& plan, FrameResult& result)
+{
+	result.gpu_ms += runner.totalMs();
+	for (size_t i = 0; i < plan.steps.size(); ++i)
+	{
+		const std::string_view name = plan.steps[i].pass->name;
+		auto found = std::find_if(result.passes.begin(), result.passes.end(), [&](const PassTime& time) { return time.name == name; });
+		if (found == result.passes.end())
+			found = result.passes.insert(result.passes.end(), { std::string(name), 0 });
+		found->gpu_ms += runner.stepMs()[i];
+	}
+}
+
+void addCounts(const FrameResources& resources, FrameCountsRead& sum)
+{
+	const FrameCounts counts = resources.counts();
+	sum.visible_clusters += resources.head(LIST_VISIBLE_CLUSTERS).wanted;
+	sum.full_clusters += resources.head(LIST_FULL_CLUSTERS).wanted;
+	sum.part_triangles += resources.head(LIST_PART_TRIANGLES).wanted;
+	sum.split_triangles += resources.head(LIST_SPLIT_TRIANGLES).wanted;
+	sum.micro_triangles += (uint64_t(counts.micro_high) << 32 | counts.micro_low) + counts.full_cluster_triangles;
+	sum.hidden_parts += counts.hidden_parts;
+	sum.revealed_parts += counts.revealed_parts;
+	sum.covered_pixels = counts.covered_pixels;  // of the whole depth image, so the last round's count is the frame's
+}
+
+void fillLists(const FrameResources& resources, FrameResult& result)
+{
+	for (const ListDesc& list : listDescs())
+	{
+		if (!resources.has(list.name))
+			continue;
+		const ListHead head = resources.head(list.index);
+		result.lists.push_back({ std::string(list.name), head.wanted, head.capacity, head.peak, head.peak_used, listBytes(list, head.capacity) });
+	}
+}
+
+OcclusionOutcome occlusionOutcome(const FrameResult& result)
+{
+	const auto took = [&](std::string_view pass) {
+		const auto found = std::find_if(result.passes.begin(), result.passes.end(), [&](const PassTime& time) { return time.name == pass; });
+		return found == result.passes.end() ? 0 : found->gpu_ms;
+	};
+	OcclusionOutcome outcome;
+	outcome.parts = result.counts.part_triangles;
+	outcome.left_out = result.counts.hidden_parts - std::min(result.counts.hidden_parts, result.counts.revealed_parts);
+	outcome.raster_ms = took("raster_micro");
+	outcome.looking_ms = took("depth_pyramid") + took("retest_parts") + took("raster_revealed");
+	return outcome;
+}
+
+}  // namespace tessera
