@@ -17,9 +17,10 @@ mesa_wanted=24                # first major version of lavapipe with all mesh sh
 build_packages=(build-essential cmake ninja-build ccache pkg-config patchelf
 	libvulkan-dev libvulkan1 glslang-tools glslang-dev spirv-tools
 	libtinygltf-dev libmeshoptimizer-dev libglm-dev libcli11-dev libspdlog-dev libfmt-dev libexpected-dev
-	nlohmann-json3-dev libstb-dev libdraco-dev zlib1g-dev libembree-dev)
+	nlohmann-json3-dev libstb-dev libdraco-dev zlib1g-dev libembree-dev libglfw3-dev libimgui-dev)
 run_packages=(librsvg2-bin)
-test_packages=(libgtest-dev libgmock-dev vulkan-validationlayers assimp-testmodels)
+test_packages=(libgtest-dev libgmock-dev vulkan-validationlayers assimp-testmodels
+	xvfb xdotool imagemagick python3)
 all_packages=(clang clang-tidy clang-format libclang-rt-dev)
 
 say()  { echo "setup: $*"; }
@@ -251,7 +252,8 @@ reportOnly()
 		command -v "$tool" > /dev/null || missing+=("$tool")
 	done
 	for header in vulkan/vulkan.h vk_mem_alloc.h tiny_gltf.h meshoptimizer.h glm/glm.hpp CLI/CLI.hpp spdlog/spdlog.h \
-		fmt/format.h tl/expected.hpp nlohmann/json.hpp stb/stb_image.h draco/draco_features.h zlib.h gtest/gtest.h
+		fmt/format.h tl/expected.hpp nlohmann/json.hpp stb/stb_image.h draco/draco_features.h zlib.h gtest/gtest.h \
+		GLFW/glfw3.h imgui/imgui.h
 	do
 		[[ -r ${VULKAN_SDK:-/nowhere}/include/$header ]] || hasHeader "$header" || missing+=("$header")
 	done

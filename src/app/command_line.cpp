@@ -20,6 +20,7 @@ struct CommandDesc
 };
 
 constexpr CommandDesc kCommands[] = {
+	{ Command::View, "view", "open a window on SCENE: turn it, change every option, see what every stage does" },
 	{ Command::Render, "render", "draw one picture of SCENE" },
 	{ Command::Report, "report", "measure error against run time of SCENE at several rates; a page with plots and a recommendation" },
 	{ Command::Export, "export", "write the micro-triangles of SCENE as a mesh, .glb or .ply; all of them unless --cull is given" },
@@ -63,6 +64,16 @@ void addVerifyOptions(CLI::App& app, CommandLine& line)
 	app.add_option("--against", line.against, "another device, compared with the first")->type_name("NAME|N");
 }
 
+void addViewOptions(CLI::App& app, CommandLine& line)
+{
+	app.add_option_function<std::string>(
+		   "--ui", [&line](const std::string& text) { line.shows_interface = text == "on"; }, "panels at the start (F1 shows and hides them)")
+		->type_name("on|off")
+		->check(CLI::IsMember({ "on", "off" }));
+	app.add_option("--ui-state", line.ui_state, "what the window shows and where its controls are, as JSON; written at the end and with F9")
+		->type_name("FILE");
+}
+
 std::string outputHelp(Command command)
 {
 	switch (command)
@@ -82,7 +93,9 @@ void addCommandOptions(CLI::App& app, CommandLine& line)
 {
 	const char* otherwise = line.command == Command::Info ? "default: none" : "default: the first built-in scene";
 	app.add_option("SCENE", line.scene, otherwise)->type_name("");
-	if (line.command != Command::Info)
+	if (line.command == Command::View)
+		addViewOptions(app, line);
+	else if (line.command != Command::Info)
 		app.add_option("-o,--output", line.output, outputHelp(line.command))->type_name(line.command == Command::Report ? "FOLDER" : "FILE");
 	if (line.command == Command::Render)
 		app.add_option("--stats", line.stats, "counts and times as JSON; - is standard output")->type_name("FILE|-");
@@ -142,6 +155,8 @@ Result<CommandLine> parseCommand(const CommandDesc& command, std::vector<std::st
 	app.get_formatter()->column_width(32);
 	if (command.command == Command::Verify)
 		TRY(setOption(*findOption("size"), "640x360", line.options));
+	if (command.command == Command::View)
+		TRY(setOption(*findOption("size"), "1280x720", line.options));
 	if (command.command == Command::Export)
 		TRY(setOption(*findOption("cull"), "off", line.options));
 	addCommandOptions(app, line);
@@ -163,6 +178,8 @@ Result<CommandLine> parseCommand(const CommandDesc& command, std::vector<std::st
 		return fail(ExitCode::Usage, "{}: {}; `tessera {} --help` lists what it takes", command.name, error.what(), command.name);
 	}
 	TRY(status);
+	if (command.command == Command::View && app.count("--frames") > 0)
+		line.frame_limit = line.options.frames;
 	return line;
 }
 

@@ -13,6 +13,7 @@ enum class Command : uint8_t
 	Export,
 	Info,
 	Verify,
+	View,
 };
 
 struct CommandLine
@@ -28,6 +29,10 @@ struct CommandLine
 	std::string against;     // a second device; empty: none
 	bool usual_way = false;  // of verify
 	bool base = false, print_plan = false, json = false;
+	// of view
+	bool shows_interface = true;
+	std::string ui_state;      // file; empty: none
+	uint32_t frame_limit = 0;  // ends after this many; 0: when it is closed
 	AppOptions options;
 };
 

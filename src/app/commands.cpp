@@ -1,6 +1,7 @@
 #include "app/commands.h"
 
 #include "base/log.h"
+#include "viewer/viewer.h"
 
 #include <cstdio>
 #include <new>
@@ -29,6 +30,8 @@ Status runCommand(const CommandLine& line)
 		return infoCommand(line);
 	case Command::Verify:
 		return verifyCommand(line);
+	case Command::View:
+		return viewCommand(line);
 	}
 	return {};
 }

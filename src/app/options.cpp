@@ -174,6 +174,8 @@ const std::array kTable = {
 	OptionDesc{ "target", "X,Y,Z", "what the camera looks at; default with --eye: the middle of the scene", &AppOptions::target },
 	OptionDesc{ "up", "X,Y,Z", "what is up in the picture", &AppOptions::up },
 	OptionDesc{ "fov", "DEGREES", "vertical field of view", &AppOptions::fov_deg, 0.01, 179 },
+	OptionDesc{ "ortho", "HEIGHT", "orthographic view of this height, in world units; default: perspective, or as the camera of the file is",
+				&AppOptions::ortho_world, 1e-30, kMostLength },
 	OptionDesc{ "near", "DISTANCE", "nothing nearer is drawn; default: radius of the scene / 1000", &AppOptions::near_world, 1e-6, kMostLength },
 	OptionDesc{ "camera", "N", "the scene's N-th camera, from 0; default: frame the scene, built-in scenes use their own", &AppOptions::camera, 0,
 				4e9 },

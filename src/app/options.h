@@ -29,7 +29,8 @@ struct AppOptions : RenderOptions
 	std::optional<dvec3> eye, target, up;  // world units; over what --camera or framing gives
 	std::optional<double> fov_deg;         // vertical
 	std::optional<double> near_world;
-	std::optional<uint32_t> camera;  // index into the scene's cameras
+	std::optional<double> ortho_world;  // height of an orthographic view
+	std::optional<uint32_t> camera;     // index into the scene's cameras
 	uint32_t grid_columns = 1, grid_rows = 1;
 	std::optional<dvec3> grid_u, grid_v;  // world units; absent: a little more than the scene's size
 	Metric metric = Metric::Edge;

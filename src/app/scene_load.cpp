@@ -149,6 +149,11 @@ Result<Camera> chooseCamera(const BuiltScene& scene, const AppOptions& options)
 		camera.fov_y_rad = *options.fov_deg * kDegree;
 		camera.orthographic = false;
 	}
+	if (options.ortho_world)
+	{
+		camera.orthographic = true;
+		camera.height_world = *options.ortho_world;
+	}
 	const dvec3 view = camera.target - camera.eye;
 	if (!(glm::length(view) > 0))
 		return fail(ExitCode::Usage, "--eye {} is also the target: they must differ", printVector(camera.eye));

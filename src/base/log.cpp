@@ -3,6 +3,9 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <mutex>
+#include <utility>
+
 namespace tessera
 {
 
@@ -22,8 +25,31 @@ void setLogLevel(LogLevel level)
 	logger().set_level(level == LogLevel::Quiet ? spdlog::level::warn : spdlog::level::info);
 }
 
+struct Listener
+{
+	std::mutex mutex;
+	std::function<void(LogLevel, const std::string&)> call;
+};
+
+static Listener& listener()
+{
+	static Listener instance;
+	return instance;
+}
+
+void setLogListener(std::function<void(LogLevel, const std::string&)> call)
+{
+	const std::lock_guard lock(listener().mutex);
+	listener().call = std::move(call);
+}
+
 void logLine(LogLevel level, const std::string& text)
 {
+	{
+		const std::lock_guard lock(listener().mutex);
+		if (listener().call)
+			listener().call(level, text);
+	}
 	logger().log(level == LogLevel::Quiet ? spdlog::level::warn : spdlog::level::info, "{}", text);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <functional>
 #include <string>
 
 namespace tessera
@@ -14,6 +15,8 @@ enum class LogLevel
 };
 
 void setLogLevel(LogLevel level);
+// Gets every line as well, from whatever thread logs it; empty: nobody.
+void setLogListener(std::function<void(LogLevel, const std::string&)> listener);
 void logLine(LogLevel level, const std::string& text);
 
 template <typename... Args>

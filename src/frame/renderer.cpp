@@ -112,6 +112,8 @@ public:
 		return {};
 	}
 
+	VkBuffer pictureBuffer() const override { return resources_->buffer("picture").handle(); }
+
 	Result<std::vector<uint8_t>> readPicture() override
 	{
 		const uint64_t bytes = uint64_t(input_.options.width_px) * input_.options.height_px * 4;

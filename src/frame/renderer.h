@@ -49,6 +49,9 @@ public:
 	// may change: both rates 0 or both above, and the raster path not `auto`.
 	virtual void setRate(float rate_px) = 0;
 
+	// Where the last picture lies on the device, until the next frame begins or options change.
+	virtual VkBuffer pictureBuffer() const = 0;
+
 	// The last picture: width x height x 4 bytes, RGBA, sRGB-encoded, rows top to bottom.
 	virtual Result<std::vector<uint8_t>> readPicture() = 0;
 

@@ -1,0 +1,171 @@
+#include "viewer/input.h"
+
+#include "viewer/camera_control.h"
+
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera::view
+{
+
+namespace
+{
+
+constexpr double kRadPerPx = 0.006;
+constexpr float kRateStep = 1.189207115f;  // a quarter of a doubling
+constexpr float kFinestRate = 0.05f, kCoarsestRate = 1000;
+
+constexpr std::string_view kHelp[] = {
+	"left drag: orbit",
+	"right or middle drag: pan",
+	"Ctrl + left drag: look around",
+	"wheel: nearer, farther",
+	"W A S D, E C: fly, up, down",
+	"F: frame the scene",
+	"Home: back to the first view",
+	"+ -: tessellation rate",
+	"Ctrl+O: open a scene",
+	"Ctrl+C: copy the render command",
+	"V: vertical sync",
+	"R: reload shaders",
+	"F1: panels on and off",
+	"F9: write --ui-state",
+	"F11: full screen",
+	"F12: screenshot",
+	"Ctrl+Q: quit",
+};
+
+bool isOverPicture(dvec2 mouse_px, const Session& session)
+{
+	const dvec2 low = dvec2(session.viewport_low), high = low + dvec2(session.viewport_size);
+	return mouse_px.x >= low.x && mouse_px.y >= low.y && mouse_px.x < high.x && mouse_px.y < high.y && !ImGui::GetIO().WantCaptureMouse;
+}
+
+Camera& movedCamera(Session& session)
+{
+	return session.camera;
+}
+
+void changeRate(Session& session, float factor)
+{
+	float& rate = session.options.rate;
+	if (rate > 0)
+		rate = std::clamp(rate * factor, kFinestRate, kCoarsestRate);
+}
+
+}  // namespace
+
+std::span<const std::string_view> keyHelp()
+{
+	return kHelp;
+}
+
+void Input::apply(const WindowEvents& events, const Window& window, double elapsed_s, Session& session)
+{
+	for (const KeyPress& press : events.keys)
+		pressKey(press, session);
+	for (const std::string& path : events.dropped)
+		drop(path, session);
+	const dvec2 mouse = window.mousePx();
+	if (events.scrolled != 0 && isOverPicture(mouse, session))
+		movedCamera(session) = dollied(movedCamera(session), events.scrolled);
+	moveByMouse(window, session);
+	if (!ImGui::GetIO().WantTextInput)
+		fly(window, elapsed_s, session);
+	last_mouse_px_ = mouse;
+}
+
+void Input::pressKey(const KeyPress& press, Session& session)
+{
+	Requests& requests = session.requests;
+	const bool is_typing = ImGui::GetIO().WantTextInput;
+	switch (press.key)
+	{
+	case GLFW_KEY_F1:
+		session.shows_interface = !session.shows_interface;
+		return;
+	case GLFW_KEY_F9:
+		requests.write_state = true;
+		return;
+	case GLFW_KEY_F11:
+		requests.switch_full_screen = true;
+		return;
+	case GLFW_KEY_F12:
+		requests.screenshot = true;
+		return;
+	case GLFW_KEY_ESCAPE:
+		session.asks_for_path = false;
+		return;
+	default:
+		break;
+	}
+	if (press.control)
+	{
+		requests.quit |= press.key == GLFW_KEY_Q;
+		requests.copy_command |= press.key == GLFW_KEY_C && !is_typing;
+		session.asks_for_path |= press.key == GLFW_KEY_O;
+		return;
+	}
+	if (is_typing)
+		return;
+	if (press.key == GLFW_KEY_EQUAL || press.key == GLFW_KEY_KP_ADD)
+		changeRate(session, kRateStep);
+	if (press.key == GLFW_KEY_MINUS || press.key == GLFW_KEY_KP_SUBTRACT)
+		changeRate(session, 1 / kRateStep);
+	requests.frame_selection |= press.key == GLFW_KEY_F;
+	requests.reset_camera |= press.key == GLFW_KEY_HOME;
+	requests.reload_shaders |= press.key == GLFW_KEY_R;
+	if (press.key == GLFW_KEY_V)
+		session.vsync = !session.vsync;
+}
+
+void Input::moveByMouse(const Window& window, Session& session)
+{
+	const dvec2 mouse = window.mousePx();
+	if (dragged_button_ >= 0 && !window.isButtonDown(dragged_button_))
+		dragged_button_ = -1;
+	if (dragged_button_ < 0)
+	{
+		if (!isOverPicture(mouse, session))
+			return;
+		for (int button : { GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOUSE_BUTTON_MIDDLE })
+			if (window.isButtonDown(button))
+				dragged_button_ = button;
+		return;
+	}
+	const dvec2 moved = mouse - last_mouse_px_;
+	if (moved == dvec2(0))
+		return;
+	Camera& camera = movedCamera(session);
+	const bool looks_around = window.isKeyDown(GLFW_KEY_LEFT_CONTROL) || window.isKeyDown(GLFW_KEY_RIGHT_CONTROL);
+	if (dragged_button_ != GLFW_MOUSE_BUTTON_LEFT)
+		camera = panned(camera, moved, session.viewport_size.y);
+	else if (looks_around)
+		camera = turned(camera, dvec2(moved.x, -moved.y) * kRadPerPx);
+	else
+		camera = orbited(camera, dvec2(-moved.x, moved.y) * kRadPerPx);
+}
+
+void Input::fly(const Window& window, double elapsed_s, Session& session) const
+{
+	if (window.isKeyDown(GLFW_KEY_LEFT_CONTROL) || window.isKeyDown(GLFW_KEY_RIGHT_CONTROL) || !session.scene)
+		return;
+	const auto held = [&](int key) {
+		return window.isKeyDown(key) ? 1.0 : 0.0;
+	};
+	const dvec3 direction = { held(GLFW_KEY_D) - held(GLFW_KEY_A), held(GLFW_KEY_E) - held(GLFW_KEY_C), held(GLFW_KEY_W) - held(GLFW_KEY_S) };
+	if (direction == dvec3(0))
+		return;
+	const double speed = boundingRadius(session.scene->subject.scene) * 0.7;
+	movedCamera(session) = flown(movedCamera(session), direction * (speed * std::min(elapsed_s, 0.2)));
+}
+
+void Input::drop(const std::string& path, Session& session) const
+{
+	session.requests.open = path;
+}
+
+}  // namespace tessera::view

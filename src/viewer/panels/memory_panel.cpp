@@ -1,0 +1,42 @@
+// What the device holds.
+#include "viewer/panels/panels.h"
+
+namespace tessera::view
+{
+
+namespace
+{
+
+void draw(Ui&, Session& session)
+{
+	const MemoryStats& memory = session.shown.memory;
+	if (ImGui::BeginTable("kinds", 2))
+	{
+		valueRow("lists", bytesText(memory.lists));
+		valueRow("geometry", bytesText(memory.geometry));
+		valueRow("textures", bytesText(memory.textures));
+		valueRow("images", bytesText(memory.images));
+		valueRow("together", bytesText(memory.total()));
+		ImGui::EndTable();
+	}
+	if (!ImGui::BeginTable("resources", 3, ImGuiTableFlags_RowBg))
+		return;
+	ImGui::TableSetupColumn("resource");
+	ImGui::TableSetupColumn("kind");
+	ImGui::TableSetupColumn("planned size");
+	ImGui::TableHeadersRow();
+	for (const PlannedResource& resource : session.shown.plan.resources)
+		if (resource.kept)
+		{
+			valueRow(std::string(resource.name).c_str(), std::string(resource.kind));
+			ImGui::TableNextColumn();
+			ImGui::TextUnformatted(bytesText(resource.bytes).c_str());
+		}
+	ImGui::EndTable();
+}
+
+}  // namespace
+
+const Panel kMemoryPanel = { "Memory", "what the device holds", draw, {} };
+
+}  // namespace tessera::view

@@ -1,0 +1,289 @@
+// What of the viewer is pure: cameras, command lines, panels, limits, histories, completion.
+#include "app/scene_load.h"
+#include "scene/build.h"
+#include "viewer/camera_control.h"
+#include "viewer/completion.h"
+#include "viewer/history.h"
+#include "viewer/limits.h"
+#include "viewer/option_text_form.h"
+#include "viewer/panels/panels.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+namespace tessera::view
+{
+
+namespace
+{
+
+Camera someCamera()
+{
+	Camera camera;
+	camera.eye = { 1.25, 2.5, 4.0 };
+	camera.target = { 0.25, 0.5, -0.75 };
+	return camera;
+}
+
+double distanceOf(const Camera& camera)
+{
+	return glm::length(camera.target - camera.eye);
+}
+
+bool spansView(const Camera& camera)
+{
+	const dvec3 view = camera.target - camera.eye;
+	return glm::length(glm::cross(view, camera.up)) > 1e-6 * glm::length(view) * glm::length(camera.up);
+}
+
+ListStats listOf(const char* name, uint64_t wanted, uint32_t capacity)
+{
+	return { name, wanted, capacity, static_cast<uint32_t>(wanted), static_cast<uint32_t>(std::min<uint64_t>(wanted, capacity)), 0 };
+}
+
+// Arguments of a command line whose values are quoted as for a shell.
+std::vector<std::string> shellWords(const std::string& line)
+{
+	std::vector<std::string> words(1);
+	bool quoted = false;
+	for (size_t i = 0; i < line.size(); ++i)
+		if (line[i] == '\'')
+			quoted = !quoted;
+		else if (line[i] == '\\' && !quoted)
+			words.back() += line[++i];
+		else if (line[i] == ' ' && !quoted)
+			words.emplace_back();
+		else
+			words.back() += line[i];
+	return words;
+}
+
+}  // namespace
+
+TEST(cameraControl, orbitsKeepTargetAndDistanceAndNeverLookAlongUp)
+{
+	Camera camera = someCamera();
+	const double distance = distanceOf(camera);
+	for (int i = 0; i < 200; ++i)
+	{
+		camera = orbited(camera, { 0.3, i < 100 ? 0.2 : -0.2 });
+		EXPECT_NEAR(distanceOf(camera), distance, 1e-9);
+		EXPECT_EQ(camera.target, someCamera().target);
+		ASSERT_TRUE(spansView(camera));
+	}
+}
+
+TEST(cameraControl, turningKeepsTheEye)
+{
+	Camera camera = someCamera();
+	for (int i = 0; i < 100; ++i)
+	{
+		camera = turned(camera, { 0.1, 0.3 });
+		EXPECT_EQ(camera.eye, someCamera().eye);
+		ASSERT_TRUE(spansView(camera));
+	}
+	const Camera right = turned(someCamera(), { 0.1, 0 });
+	EXPECT_GT(pixelOf(someCamera(), right.target, { 100, 100 }).x, 50.0) << "positive x turns to the right";
+}
+
+TEST(cameraControl, panningMovesTheTargetWithTheMouse)
+{
+	const uvec2 size = { 640, 360 };
+	for (bool orthographic : { false, true })
+	{
+		Camera camera = someCamera();
+		camera.orthographic = orthographic;
+		const dvec3 target = camera.target;
+		const dvec3 pixel = pixelOf(panned(camera, { 40, -25 }, size.y), target, size);
+		EXPECT_NEAR(pixel.x, 320 + 40, 1e-6);
+		EXPECT_NEAR(pixel.y, 180 - 25, 1e-6);
+	}
+}
+
+TEST(cameraControl, pointsAndPixelsAreInverse)
+{
+	const uvec2 size = { 320, 240 };
+	for (bool orthographic : { false, true })
+	{
+		Camera camera = someCamera();
+		camera.orthographic = orthographic;
+		const dvec3 found = pixelOf(camera, pointAt(camera, { 17.5, 201.25 }, size, 3.5), size);
+		EXPECT_NEAR(found.x, 17.5, 1e-9);
+		EXPECT_NEAR(found.y, 201.25, 1e-9);
+		EXPECT_NEAR(found.z, 3.5, 1e-9);
+	}
+}
+
+TEST(cameraControl, framingShowsTheWholeSphereAndTouchesTheEdge)
+{
+	for (double aspect : { 0.5, 1.0, 2.0 })
+	{
+		const Camera camera = framing(someCamera(), { 1, 2, 3 }, 2, aspect);
+		const double half = camera.fov_y_rad / 2, narrow = std::atan(std::tan(half) * std::min(1.0, aspect));
+		EXPECT_NEAR(std::asin(2 / distanceOf(camera)), narrow, 1e-9);
+		EXPECT_EQ(camera.target, dvec3(1, 2, 3));
+	}
+}
+
+TEST(cameraControl, dollyStepsAreUndoneByStepsBack)
+{
+	const Camera camera = dollied(dollied(someCamera(), 5), -5);
+	EXPECT_NEAR(glm::length(camera.eye - someCamera().eye), 0, 1e-12);
+	EXPECT_LT(distanceOf(dollied(someCamera(), 1)), distanceOf(someCamera()));
+}
+
+TEST(renderCommandLine, readsBackAsTheSameOptionsAndCameraBits)
+{
+	const auto imported = importScene("builtin:quad", {});
+	ASSERT_TRUE(imported.has_value());
+	const auto scene = buildScene(*imported);
+	ASSERT_TRUE(scene.has_value());
+	AppOptions options;
+	for (const auto& [name, value] : std::initializer_list<std::pair<const char*, const char*>>{ { "rate", "2.7" },
+																								 { "cull", "frustum" },
+																								 { "capacity", "part_triangles=1234" },
+																								 { "view", "factors" },
+																								 { "size", "333x222" },
+																								 { "budget", "3MB" } })
+		ASSERT_TRUE(setOption(*findOption(name), value, options).has_value()) << name;
+	for (double step : { 0.0, 0.1, 1.7, 3.3 })
+	{
+		Camera camera = withFov(orbited(someCamera(), { step, step / 7 }), 37 + step);
+		camera.near_world = step / 10;
+		camera.orthographic = step > 3;
+		const std::vector<std::string> words = shellWords(renderCommandLine("a scene's file.gltf", options, camera));
+		ASSERT_EQ(words[2], "a scene's file.gltf");
+		AppOptions read;
+		for (size_t i = 3; i < words.size(); ++i)
+		{
+			const size_t equals = words[i].find('=');
+			const OptionDesc* option = findOption(words[i].substr(2, equals - 2));
+			ASSERT_NE(option, nullptr) << words[i];
+			ASSERT_TRUE(setOption(*option, equals == std::string::npos ? "" : words[i].substr(equals + 1), read).has_value()) << words[i];
+		}
+		const auto found = chooseCamera(*scene, read);
+		ASSERT_TRUE(found.has_value());
+		EXPECT_EQ(found->eye, camera.eye);
+		EXPECT_EQ(found->target, camera.target);
+		EXPECT_EQ(found->up, camera.up);
+		EXPECT_EQ(found->orthographic, camera.orthographic);
+		EXPECT_EQ(camera.orthographic ? found->height_world : found->fov_y_rad, camera.orthographic ? camera.height_world : camera.fov_y_rad);
+		EXPECT_EQ(optionsJson(read), optionsJson(withCamera(options, camera)));
+	}
+}
+
+TEST(withOption, noValueIsTheDefaultAndTheOthersStay)
+{
+	AppOptions options;
+	for (const auto& [name, value] :
+		 std::initializer_list<std::pair<const char*, const char*>>{ { "rate", "2" }, { "budget", "3MB" }, { "grid-u", "1,2,3" } })
+		ASSERT_TRUE(setOption(*findOption(name), value, options).has_value());
+	for (const char* name : { "rate", "budget", "grid-u" })
+	{
+		const auto changed = withOption(*findOption(name), {}, options);
+		ASSERT_TRUE(changed.has_value());
+		AppOptions expected;
+		for (const char* other : { "rate", "budget", "grid-u" })
+			if (other != std::string(name))
+			{
+				ASSERT_TRUE(setOption(*findOption(other), printOption(*findOption(other), options)[0], expected).has_value());
+			}
+		EXPECT_EQ(optionsJson(*changed), optionsJson(expected)) << name;
+	}
+	EXPECT_FALSE(withOption(*findOption("rate"), { "fast" }, options).has_value());
+}
+
+TEST(panels, everyRowOfTheOptionTableHasExactlyOnePlace)
+{
+	std::multiset<std::string_view> places(optionsWithoutPanel().begin(), optionsWithoutPanel().end());
+	for (const Panel& panel : panels())
+		places.insert(panel.options.begin(), panel.options.end());
+	for (const OptionDesc& option : optionTable())
+		EXPECT_EQ(places.count(option.name), 1u) << option.name;
+	for (std::string_view name : places)
+		EXPECT_NE(findOption(name), nullptr) << name;
+}
+
+TEST(limits, areColouredFromEightyPercentAndAboveAll)
+{
+	EXPECT_EQ(fillOf(0, 0), Fill::Roomy);
+	EXPECT_EQ(fillOf(79, 100), Fill::Roomy);
+	EXPECT_EQ(fillOf(80, 100), Fill::Tight);
+	EXPECT_EQ(fillOf(100, 100), Fill::Tight);
+	EXPECT_EQ(fillOf(101, 100), Fill::Full);
+	EXPECT_EQ(fillOf(5000000000, 0xffffffff), Fill::Full);
+}
+
+TEST(limits, highWaterIsTheMostThatWasEverWantedAndFitHoldsIt)
+{
+	HighWater marks;
+	const std::vector<ListStats> first = { listOf("part_triangles", 900, 1000), listOf("batches", 50, 60) };
+	const std::vector<ListStats> second = { listOf("part_triangles", 300, 1000), listOf("visible_clusters", 2, 64) };
+	marks.add(first);
+	marks.add(second);
+	EXPECT_EQ(marks.of("part_triangles"), 900u);
+	EXPECT_EQ(marks.of("no list"), 0u);
+	const auto capacities = marks.fittingCapacities();
+	EXPECT_GE(capacities.at("part_triangles"), 900u);
+	EXPECT_LE(capacities.at("part_triangles"), 1100u);
+	EXPECT_EQ(capacities.count("batches"), 0u) << "batches follow from parts";
+	AppOptions options;
+	for (const auto& [name, count] : capacities)
+		EXPECT_TRUE(setOption(*findOption("capacity"), name + "=" + std::to_string(count), options).has_value()) << name;
+	marks.clear();
+	EXPECT_EQ(marks.of("part_triangles"), 0u);
+}
+
+TEST(limits, aFrameThatIsAsFineAsAskedForHasNoWarning)
+{
+	FrameResult result;
+	result.rate_wanted = result.rate_granted = 4;
+	EXPECT_EQ(coarseningWarning(result), "");
+	result.coarsening = 16;
+	result.rate_granted = 8;
+	result.lists = { listOf("part_triangles", 900, 100), listOf("batches", 5, 60) };
+	const std::string warning = coarseningWarning(result);
+	EXPECT_NE(warning.find("4 px wanted, 8 px granted"), std::string::npos) << warning;
+	EXPECT_NE(warning.find("part_triangles"), std::string::npos) << warning;
+	EXPECT_EQ(warning.find("batches"), std::string::npos) << warning;
+}
+
+TEST(history, medianIsOfTheLastSecondAndOldValuesGo)
+{
+	History history(10);
+	EXPECT_EQ(history.median(), 0);
+	for (int i = 0; i < 100; ++i)
+		history.add(i * 0.25, i);
+	EXPECT_EQ(history.median(1), 97) << "of 95, 96, 97, 98, 99";
+	EXPECT_EQ(history.median(0.25), 98.5);
+	EXPECT_EQ(history.values().size(), 41u);
+	EXPECT_EQ(history.values().front(), 59.0f);
+}
+
+TEST(completion, goesOnAsFarAsItIsCertain)
+{
+	namespace fs = std::filesystem;
+	const fs::path folder = fs::temp_directory_path() / ("tessera_completion_" + std::to_string(std::rand()));
+	fs::create_directories(folder / "models");
+	for (const char* name : { "sphere.gltf", "sphere_two.GLB", "sphere.png", ".hidden.glb" })
+		std::ofstream(folder / name) << "x";
+	const std::string base = folder.string() + "/";
+	const std::vector<std::string> suffixes = { ".gltf", ".glb" };
+	const Completion spheres = completePath(base + "sp", suffixes);
+	EXPECT_EQ(spheres.text, base + "sphere");
+	EXPECT_EQ(spheres.files, (std::vector<std::string>{ base + "sphere.gltf", base + "sphere_two.GLB" }));
+	EXPECT_EQ(completePath(base + "m", suffixes).text, base + "models/");
+	EXPECT_EQ(completePath(base + "x", suffixes).text, base + "x");
+	EXPECT_TRUE(completePath(base + "x", suffixes).files.empty());
+	EXPECT_EQ(completePath(base + ".h", suffixes).text, base + ".hidden.glb");
+	EXPECT_EQ(completePath(base, suffixes).files.size(), 3u) << "hidden files stay hidden";
+	EXPECT_EQ(completePath("built", suffixes, { "builtin:planet", "builtin:cube" }).text, "builtin:");
+	EXPECT_TRUE(completePath(base + "no/such/folder", suffixes).files.empty());
+	fs::remove_all(folder);
+}
+
+}  // namespace tessera::view
