@@ -63,6 +63,7 @@ const std::vector<std::pair<std::string, std::string>> kSamples = {
 	{ "up", "0,0,1" },
 	{ "fov", "47.25" },
 	{ "near", "0.001" },
+	{ "ortho", "2.5" },
 	{ "camera", "3" },
 	{ "grid", "4x3" },
 	{ "grid-u", "-2,0,0" },
