@@ -52,3 +52,12 @@ endif()
 add_library(tessera_imgui INTERFACE)
 target_include_directories(tessera_imgui SYSTEM INTERFACE ${IMGUI_INCLUDE_DIRS})
 target_link_libraries(tessera_imgui INTERFACE ${IMGUI_LINK_LIBRARIES} glfw tessera_vulkan)
+
+# The shader compiler as a library, for reloading shaders. glslang's package needs SPIRV-Tools found before it.
+find_package(SPIRV-Tools-opt QUIET)
+find_package(glslang QUIET)
+if(NOT glslang_FOUND)
+  message(FATAL_ERROR "glslang's library is not installed: run thirdparty/setup.sh")
+endif()
+add_library(tessera_glslang INTERFACE)
+target_link_libraries(tessera_glslang INTERFACE glslang::glslang glslang::SPIRV glslang::glslang-default-resource-limits)

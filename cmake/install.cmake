@@ -2,6 +2,7 @@
 #   bin/tessera                    looks for its libraries in ../lib and for its shaders in ../share/tessera/shaders
 #   lib/                           the shared libraries it needs, without those that belong to the machine it runs on
 #   share/tessera/shaders/**.spv   compiled shaders
+#   share/tessera/shader_sources/  what they are compiled from, for reloading in the viewer
 # Belong to the machine: the C library, the Vulkan loader and drivers (the loader has to find that machine's drivers), and the
 # C++ run-time library: drivers load it too and may need a newer one than the build machine's (seen: no device found).
 # TESSERA_INSTALL_CXX_RUNTIME brings it along all the same, for a machine that has none or an older one.
@@ -12,6 +13,8 @@ if(TARGET tessera)
   install(TARGETS tessera RUNTIME DESTINATION bin)
   install(DIRECTORY ${PROJECT_BINARY_DIR}/shaders/ DESTINATION share/tessera/shaders FILES_MATCHING PATTERN "*.spv"
           PATTERN CMakeFiles EXCLUDE)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders/ DESTINATION share/tessera/shader_sources
+          FILES_MATCHING PATTERN "*.comp" PATTERN "*.mesh" PATTERN "*.frag" PATTERN "*.vert" PATTERN "*.glsl" PATTERN "*.h")
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/tessera)
 
   set(of_the_machine "^ld-linux" "^lib(c|m|pthread|dl|rt|resolv|util)[.]so" "^libvulkan[.]so")

@@ -14,7 +14,7 @@ Ray pixelRay(vec2 pixel, View view)
 {
 	vec3 across = view.ray_first + view.ray_x * pixel.x + view.ray_y * pixel.y;
 	bool perspective = view.w_slope != 0.0;
-	return Ray(perspective ? vec3(0.0) : across, perspective ? view.forward + across : view.forward);
+	return Ray(perspective ? view.draw_eye : view.draw_eye + across, perspective ? view.forward + across : view.forward);
 }
 
 // Barycentrics of where the ray meets the plane of the triangle; outside the triangle they leave 0..1.

@@ -38,8 +38,11 @@ struct View
 	vec3 ray_first;
 	vec3 ray_x;
 	vec3 ray_y;
+	// Not 0 where a picture is drawn from another camera than it was tessellated for:
+	vec3 draw_eye;     // that camera, relative to the eye, scaled
+	vec3 draw_offset;  // the way back along right, up and forward
 };
-SHARED_LAYOUT(View, 168, ray_y, 156)
+SHARED_LAYOUT(View, 192, draw_offset, 180)
 
 #define SCREEN_SUBPIXELS 256  // positions on screen are rounded to 1/256 pixel
 
@@ -130,7 +133,7 @@ SHARED_FN precise float rateDistanceSquared(vec3 relative, View view)
 // Depth of a camera-relative point along the view.
 SHARED_FN precise float viewDepth(vec3 relative, View view)
 {
-	return affineRow(view.forward, relative, 0.0f);
+	return affineRow(view.forward, relative, view.draw_offset.z);
 }
 
 // Clip coordinates from x and y and the depth along the view: reverse z, nearer is larger.
@@ -147,8 +150,8 @@ SHARED_FN precise vec4 clipAt(vec2 xy, float depth, View view)
 // Clip coordinates of a camera-relative point.
 SHARED_FN precise vec4 clipPosition(vec3 relative, View view)
 {
-	precise float x = affineRow(view.right, relative, 0.0f);
-	precise float y = affineRow(view.up, relative, 0.0f);
+	precise float x = affineRow(view.right, relative, view.draw_offset.x);
+	precise float y = affineRow(view.up, relative, view.draw_offset.y);
 	precise vec2 xy;
 	xy.x = x * view.focal_x;
 	xy.y = -(y * view.focal_y);

@@ -72,6 +72,8 @@ void addViewOptions(CLI::App& app, CommandLine& line)
 		->check(CLI::IsMember({ "on", "off" }));
 	app.add_option("--ui-state", line.ui_state, "what the window shows and where its controls are, as JSON; written at the end and with F9")
 		->type_name("FILE");
+	app.add_option("--shaders", line.shaders, "sources of the shaders, compiled again on R and when one changes; default: the program's own")
+		->type_name("FOLDER");
 }
 
 std::string outputHelp(Command command)

@@ -32,6 +32,7 @@ struct CommandLine
 	// of view
 	bool shows_interface = true;
 	std::string ui_state;      // file; empty: none
+	std::string shaders;       // folder of GLSL sources; empty: the program's own
 	uint32_t frame_limit = 0;  // ends after this many; 0: when it is closed
 	AppOptions options;
 };

@@ -163,7 +163,7 @@ void FrameResources::writeHistory(const View& view, bool makes_pyramid)
 		return;
 	const uint64_t pyramids = address("depth_pyramid"), bytes = buffer("depth_pyramid").bytes() / 2;
 	FrameHistory history = {};
-	had_history_ = has_pyramid_ && view_.width_px == view.width_px && view_.height_px == view.height_px;
+	had_history_ = makes_pyramid && has_pyramid_ && view_.width_px == view.width_px && view_.height_px == view.height_px;
 	has_pyramid_ = makes_pyramid;
 	history.has_last = had_history_ ? 1 : 0;
 	history.last_view = view_;
@@ -195,6 +195,19 @@ Status FrameResources::writeView(const View& view, uint32_t round, bool makes_py
 	info.pMemoryBarriers = &barrier;
 	vkCmdPipelineBarrier2(commands_->buffer(), &info);
 	return {};
+}
+
+void FrameResources::recordDrawView(const View& view) const
+{
+	// The device may have written the granted rate: only what a camera decides is replaced.
+	fullBarrier(commands_->buffer());
+	const auto update = [&](size_t first, size_t last) {
+		vkCmdUpdateBuffer(commands_->buffer(), buffer("view").handle(), first, last - first, reinterpret_cast<const std::byte*>(&view) + first);
+	};
+	update(offsetof(View, right), offsetof(View, unit));
+	update(offsetof(View, focal_x), offsetof(View, near));
+	update(offsetof(View, ray_first), sizeof(View));
+	fullBarrier(commands_->buffer());
 }
 
 void FrameResources::clearVisibility()

@@ -40,6 +40,8 @@ public:
 	Result<bool> growDump();
 	// Records the uploads of a round. `makes_pyramid`: it writes a depth pyramid. `steps`: candidates of rate_search, empty where the plan has none.
 	Status writeView(const View& view, uint32_t round, bool makes_pyramid, std::span<const RateStep> steps = {});
+	// Records that what follows draws from another camera (drawnFrom).
+	void recordDrawView(const View& view) const;
 	// Records that nothing has been seen yet: after rounds that were not drawn to the end.
 	void clearVisibility();
 

@@ -4,6 +4,7 @@
 #include "gpu/spirv_constants.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tessera
 {
@@ -107,6 +108,14 @@ uint32_t workgroupThreads(const Device& device, const PassDesc& pass)
 	if (shader == "raster/raster_micro.comp")
 		return 256;
 	return shader == "tessellation/triangle_split.comp" ? 128 : 64;
+}
+
+// Projects micro-vertices or draws them: from here on a frame is a picture.
+bool findsVisibility(const PassDesc& pass)
+{
+	return std::any_of(pass.uses.begin(), pass.uses.end(), [](const Use& use) {
+		return writes(use.access) && (use.resource == "micro_vertices" || use.resource == "visibility_buffer" || use.resource == "visibility_depth");
+	});
 }
 
 VkCullModeFlags cullMode(const SceneTraits& scene)
@@ -219,7 +228,7 @@ void PassRunner::stamp(uint32_t index)
 		vkCmdWriteTimestamp2(resources_.commands().buffer(), VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, index);
 }
 
-Status PassRunner::record(const FramePlan& plan, const PlanInput& input)
+Status PassRunner::record(const FramePlan& plan, const PlanInput& input, const View* draw_view)
 {
 	CHECK(plan.steps.size() <= kMostSteps, "{} steps", plan.steps.size());
 	const VkCommandBuffer commands = resources_.commands().buffer();
@@ -240,6 +249,8 @@ Status PassRunner::record(const FramePlan& plan, const PlanInput& input)
 			label.pLabelName = name.c_str();
 			device_.functions.begin_label(commands, &label);
 		}
+		if (draw_view && findsVisibility(*step.pass))
+			resources_.recordDrawView(*std::exchange(draw_view, nullptr));
 		recordBarrier(commands, step);
 		PassContext context(device_, commands, resources_, *step_pipelines_.at(i), resources_.bindless().layout(), step, input);
 		step.pass->record(context);

@@ -25,8 +25,9 @@ public:
 	// The shader that pipelines are made of. Errors: those of loadShader.
 	Result<const Shader*> shader(std::string_view name);
 
-	// Records every step of the plan between two timestamps each.
-	Status record(const FramePlan& plan, const PlanInput& input);
+	// Records every step of the plan between two timestamps each. `draw_view`: drawn from another camera than it is tessellated for; nullptr: from
+	// the same.
+	Status record(const FramePlan& plan, const PlanInput& input, const View* draw_view = nullptr);
 
 	// GPU times of the last recorded plan, after it was waited for: per step in order, and from first to last.
 	Status readTimes();

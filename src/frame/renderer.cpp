@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 
 namespace tessera
 {
@@ -52,13 +53,14 @@ public:
 		TRY(checkGates(device_, input_));
 		TRY_ASSIGN(resources_, FrameResources::create(device_, scene_, table_, input_));
 		TRY_ASSIGN(runner_, PassRunner::create(device_, *resources_));
+		wanted_ = outputs_;
 		TRY_ASSIGN(plan_, planFor(framingCamera(scene_), {}));
 		return {};
 	}
 
 	Result<FrameResult> renderFrame(const Camera& camera, const RoundReader& after_round) override
 	{
-		TRY(beginFrame(camera, after_round));
+		TRY(beginFrame({ camera, {}, {}, after_round }));
 		for (;;)
 		{
 			TRY(resources_->commands().wait());
@@ -68,13 +70,16 @@ public:
 		}
 	}
 
-	Status beginFrame(const Camera& camera, const RoundReader& after_round) override
+	Status beginFrame(const FrameRequest& request) override
 	{
 		CHECK(!runs_, "a frame is drawn already");
-		controller_.beginFrame(!rate_changed_ && camera == camera_);
+		controller_.beginFrame(!rate_changed_ && request.camera == camera_);
 		rate_changed_ = false;
-		camera_ = camera;
-		after_round_ = after_round;
+		camera_ = request.camera;
+		drawn_from_ = request.drawn_from;
+		wanted_ = outputs_;
+		wanted_.insert(wanted_.end(), request.more_outputs.begin(), request.more_outputs.end());
+		after_round_ = request.after_round;
 		attempts_ = 0;
 		growAhead();
 		return startAttempt();
@@ -138,6 +143,30 @@ public:
 	const PlanInput& planInput() const override { return input_; }
 	MemoryStats memory() const override { return resources_->memory(); }
 	const View& view() const override { return view_; }
+	const View& drawnView() const override { return drawn_from_ ? draw_view_ : view_; }
+
+	std::vector<std::string> shaderNames() const override
+	{
+		std::set<std::string> names;
+		for (const PlanStep& step : plan_.steps)
+			names.insert(step.pass->shaders.begin(), step.pass->shaders.end());
+		return { names.begin(), names.end() };
+	}
+
+	Result<size_t> replaceShaders(std::span<const Shader> shaders) override
+	{
+		CHECK(!runs_, "a frame is drawn");
+		std::vector<Shader> changed;
+		for (const Shader& shader : shaders)
+		{
+			TRY_ASSIGN(const Shader* before, runner_->shader(shader.name));
+			if (before->words != shader.words)
+				changed.push_back(shader);
+		}
+		if (!changed.empty())
+			TRY(runner_->replaceShaders(changed, plan_, input_));
+		return changed.size();
+	}
 
 private:
 	ViewRequest requestFor(const Attempt& attempt) const
@@ -159,12 +188,17 @@ private:
 		input_.view.factors_above_one = bound.above_one;
 		input_.view.split_levels = bound.split_levels > 0 || levels_needed_ > 0 ? std::max(bound.split_levels, levels_needed_) : 0;
 		input_.view.rounds = attempt.rounds;
-		input_.view.looks_for_hidden = occlusion_.looks();
+		// What hides what is seen from where it is drawn, which says nothing of what the other camera sees.
+		input_.view.looks_for_hidden = occlusion_.looks() && !drawn_from_;
 		input_.view.rate_px = request.rate_px;
+		if (drawn_from_)
+		{
+			TRY_ASSIGN(draw_view_, drawnFrom(view_, camera, *drawn_from_, scene_, request));
+		}
 		steps_.clear();
 		if (kTessellates.holds(input_))
 			steps_ = rateSteps(camera, view_, request, attempt.coarsening, bound.largest_factor, table_size, max_split);
-		return planFrame(passes_, resourceDescs(), outputs_, input_);
+		return planFrame(passes_, resourceDescs(), wanted_, input_);
 	}
 
 	// Plans the next attempt at the frame and submits its first round.
@@ -194,7 +228,7 @@ private:
 		if (round == 0 && rounds_left_over_)
 			resources_->clearVisibility();
 		rounds_left_over_ = round + 1 < attempt_.rounds;
-		TRY(runner_->record(plan_, input_));
+		TRY(runner_->record(plan_, input_, drawn_from_ ? &draw_view_ : nullptr));
 		resources_->recordCountsReadback(commands.buffer());
 		TRY(commands.submit());
 		runs_ = true;
@@ -312,7 +346,7 @@ private:
 	const BuiltScene& scene_;
 	const TessellationTable& table_;
 	std::span<const PassDesc* const> passes_;
-	std::vector<std::string_view> outputs_;
+	std::vector<std::string_view> outputs_, wanted_;  // of every frame, and of this one
 	PlanInput input_;
 	FramePlan plan_;
 	View view_ = {};
@@ -323,6 +357,8 @@ private:
 	// The frame that is drawn, or was last.
 	bool runs_ = false;  // a round is submitted and not yet taken
 	Camera camera_ = {};
+	std::optional<Camera> drawn_from_;
+	View draw_view_ = {};
 	RoundReader after_round_;
 	uint32_t attempts_ = 0, round_ = 0;
 	Attempt attempt_;

@@ -2,6 +2,7 @@
 #pragma once
 #include "frame/stats.h"
 #include "gpu/device.h"
+#include "gpu/pipeline.h"
 #include "plan/plan.h"
 #include "scene/camera.h"
 #include "tables/table.h"
@@ -21,6 +22,15 @@ inline constexpr std::string_view kWantedOutputs[] = { "picture", "counts", "hea
 // at round 0.
 using RoundReader = std::function<Status(uint32_t round)>;
 
+// A frame that is asked for. `drawn_from`: the camera that sees it, when it is culled and tessellated for `camera` all the same.
+struct FrameRequest
+{
+	Camera camera;
+	std::optional<Camera> drawn_from;
+	std::vector<std::string_view> more_outputs;  // resources wanted of this frame beside those of the renderer; static strings
+	RoundReader after_round;
+};
+
 class Renderer
 {
 public:
@@ -38,7 +48,7 @@ public:
 	// The same without waiting: submits the frame, and says from time to time whether it is there. Until then pollFrame draws it again as often as
 	// needed and gives nothing; the picture is that of a whole frame only when it has given a result. One frame at a time; after an
 	// error the frame is over.
-	virtual Status beginFrame(const Camera& camera, const RoundReader& after_round = {}) = 0;
+	virtual Status beginFrame(const FrameRequest& request) = 0;
 	virtual Result<std::optional<FrameResult>> pollFrame() = 0;
 
 	// Other options for the frames that follow, between two frames. Remakes what they make stale and keeps the scene and every pipeline.
@@ -62,8 +72,15 @@ public:
 	virtual const FramePlan& plan() const = 0;
 	virtual const PlanInput& planInput() const = 0;
 	virtual MemoryStats memory() const = 0;
-	// The view of the last frame, as the shaders saw it.
+	// The view of the last frame, as the shaders saw it: that it was tessellated for, and that it was drawn from.
 	virtual const View& view() const = 0;
+	virtual const View& drawnView() const = 0;
+
+	// Shaders of the passes that the last frame ran, by name.
+	virtual std::vector<std::string> shaderNames() const = 0;
+	// Draws with these from now on, between two frames; gives how many differ from those before. When a pipeline of the last frame cannot be made of
+	// them, all stay as they were. Errors: DeviceCannot.
+	virtual Result<size_t> replaceShaders(std::span<const Shader> shaders) = 0;
 };
 
 // What the planner needs to know of a scene's arrays.

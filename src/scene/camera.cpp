@@ -191,6 +191,27 @@ Result<View> makeView(const Camera& camera, const BuiltScene& scene, const ViewR
 	return view;
 }
 
+Result<View> drawnFrom(const View& tessellated, const Camera& tessellated_for, const Camera& camera, const BuiltScene& scene,
+					   const ViewRequest& request)
+{
+	TRY(checkCamera(camera, request));
+	TRY_ASSIGN(const Basis basis, basisOf(camera));
+	View view = tessellated;
+	setProjection(view, camera, scene, request, double(tessellated.unit));
+	view.near = tessellated.near;
+	view.distance_weight = tessellated.distance_weight;
+	view.distance_floor_squared = tessellated.distance_floor_squared;
+	view.right = vec3(basis.right);
+	view.up = vec3(basis.up);
+	view.forward = vec3(basis.forward);
+	// From the eye that points are relative to, to the one that sees them.
+	const dvec3 back = (tessellated_for.eye - camera.eye) * double(tessellated.unit);
+	view.draw_eye = vec3(-back);
+	view.draw_offset = vec3(dvec3(glm::dot(back, basis.right), glm::dot(back, basis.up), glm::dot(back, basis.forward)));
+	setDerived(view, basis);
+	return view;
+}
+
 InstanceRecord instanceRecord(const Instance& instance)
 {
 	const dmat4& world = instance.world;

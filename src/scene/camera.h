@@ -41,6 +41,12 @@ double nearDistance(const Camera& camera, const BuiltScene& scene);
 // Errors: BadInput when eye, target and up do not span a view, or a value is not finite or out of range.
 Result<View> makeView(const Camera& camera, const BuiltScene& scene, const ViewRequest& request);
 
+// The view in which a frame that was culled and tessellated for `tessellated` is drawn from another camera: what decides the surface's shape stays,
+// what decides where its points lie in the picture is the camera's. Drawn from the same camera it is the same view, bit for bit. Errors: those of
+// makeView.
+Result<View> drawnFrom(const View& tessellated, const Camera& tessellated_for, const Camera& camera, const BuiltScene& scene,
+					   const ViewRequest& request);
+
 // Sets what of the view depends on the rate: s^2 for factors and for mip levels. `view` is otherwise that of the camera and the request.
 void setRate(View& view, const Camera& camera, const ViewRequest& request);
 

@@ -15,6 +15,7 @@ namespace
 {
 
 constexpr double kRadPerPx = 0.006;
+constexpr double kClickPx = 4, kDoubleClick_s = 0.35;
 constexpr float kRateStep = 1.189207115f;  // a quarter of a doubling
 constexpr float kFinestRate = 0.05f, kCoarsestRate = 1000;
 
@@ -29,6 +30,10 @@ constexpr std::string_view kHelp[] = {
 	"+ -: tessellation rate",
 	"Ctrl+O: open a scene",
 	"Ctrl+C: copy the render command",
+	"Q: debug camera on and off",
+	"Shift: moves what it culls for",
+	"click: inspect a pixel",
+	"double click: turn around it",
 	"V: vertical sync",
 	"R: reload shaders",
 	"F1: panels on and off",
@@ -44,9 +49,16 @@ bool isOverPicture(dvec2 mouse_px, const Session& session)
 	return mouse_px.x >= low.x && mouse_px.y >= low.y && mouse_px.x < high.x && mouse_px.y < high.y && !ImGui::GetIO().WantCaptureMouse;
 }
 
-Camera& movedCamera(Session& session)
+// With Shift the debug camera, else the one that the picture is drawn from.
+Camera& movedCamera(const Window& window, Session& session)
 {
-	return session.camera;
+	const bool shift = window.isKeyDown(GLFW_KEY_LEFT_SHIFT) || window.isKeyDown(GLFW_KEY_RIGHT_SHIFT);
+	return session.debug_camera && shift ? session.culled_camera : session.camera;
+}
+
+uvec2 pictureXy(dvec2 mouse_px, const Session& session)
+{
+	return uvec2(glm::max(mouse_px - dvec2(session.viewport_low), dvec2(0)));
 }
 
 void changeRate(Session& session, float factor)
@@ -71,7 +83,7 @@ void Input::apply(const WindowEvents& events, const Window& window, double elaps
 		drop(path, session);
 	const dvec2 mouse = window.mousePx();
 	if (events.scrolled != 0 && isOverPicture(mouse, session))
-		movedCamera(session) = dollied(movedCamera(session), events.scrolled);
+		movedCamera(window, session) = dollied(movedCamera(window, session), events.scrolled);
 	moveByMouse(window, session);
 	if (!ImGui::GetIO().WantTextInput)
 		fly(window, elapsed_s, session);
@@ -118,6 +130,12 @@ void Input::pressKey(const KeyPress& press, Session& session)
 	requests.frame_selection |= press.key == GLFW_KEY_F;
 	requests.reset_camera |= press.key == GLFW_KEY_HOME;
 	requests.reload_shaders |= press.key == GLFW_KEY_R;
+	if (press.key == GLFW_KEY_Q)
+	{
+		if (!session.separates())
+			session.culled_camera = session.camera;
+		session.debug_camera = !session.debug_camera;
+	}
 	if (press.key == GLFW_KEY_V)
 		session.vsync = !session.vsync;
 }
@@ -126,20 +144,24 @@ void Input::moveByMouse(const Window& window, Session& session)
 {
 	const dvec2 mouse = window.mousePx();
 	if (dragged_button_ >= 0 && !window.isButtonDown(dragged_button_))
+	{
+		endDrag(mouse, session);
 		dragged_button_ = -1;
+	}
 	if (dragged_button_ < 0)
 	{
 		if (!isOverPicture(mouse, session))
 			return;
 		for (int button : { GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOUSE_BUTTON_MIDDLE })
 			if (window.isButtonDown(button))
-				dragged_button_ = button;
+				beginDrag(button, mouse);
 		return;
 	}
 	const dvec2 moved = mouse - last_mouse_px_;
 	if (moved == dvec2(0))
 		return;
-	Camera& camera = movedCamera(session);
+	dragged_px_ += std::abs(moved.x) + std::abs(moved.y);
+	Camera& camera = movedCamera(window, session);
 	const bool looks_around = window.isKeyDown(GLFW_KEY_LEFT_CONTROL) || window.isKeyDown(GLFW_KEY_RIGHT_CONTROL);
 	if (dragged_button_ != GLFW_MOUSE_BUTTON_LEFT)
 		camera = panned(camera, moved, session.viewport_size.y);
@@ -147,6 +169,25 @@ void Input::moveByMouse(const Window& window, Session& session)
 		camera = turned(camera, dvec2(moved.x, -moved.y) * kRadPerPx);
 	else
 		camera = orbited(camera, dvec2(-moved.x, moved.y) * kRadPerPx);
+}
+
+void Input::beginDrag(int button, dvec2 mouse_px)
+{
+	dragged_button_ = button;
+	dragged_px_ = 0;
+	drag_start_px_ = mouse_px;
+}
+
+// A drag that went nowhere was a click.
+void Input::endDrag(dvec2 mouse_px, Session& session)
+{
+	if (dragged_button_ != GLFW_MOUSE_BUTTON_LEFT || dragged_px_ > kClickPx)
+		return;
+	const double time = glfwGetTime();
+	const bool is_double = time - last_click_s_ < kDoubleClick_s && glm::length(mouse_px - last_click_px_) < kClickPx;
+	(is_double ? session.requests.recentre : session.requests.pick) = pictureXy(drag_start_px_, session);
+	last_click_s_ = is_double ? 0 : time;
+	last_click_px_ = mouse_px;
 }
 
 void Input::fly(const Window& window, double elapsed_s, Session& session) const
@@ -160,7 +201,7 @@ void Input::fly(const Window& window, double elapsed_s, Session& session) const
 	if (direction == dvec3(0))
 		return;
 	const double speed = boundingRadius(session.scene->subject.scene) * 0.7;
-	movedCamera(session) = flown(movedCamera(session), direction * (speed * std::min(elapsed_s, 0.2)));
+	movedCamera(window, session) = flown(movedCamera(window, session), direction * (speed * std::min(elapsed_s, 0.2)));
 }
 
 void Input::drop(const std::string& path, Session& session) const

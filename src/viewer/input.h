@@ -18,7 +18,11 @@ private:
 	void fly(const Window& window, double elapsed_s, Session& session) const;
 	void drop(const std::string& path, Session& session) const;
 
-	dvec2 last_mouse_px_ = dvec2(0);
+	void beginDrag(int button, dvec2 mouse_px);
+	void endDrag(dvec2 mouse_px, Session& session);
+
+	dvec2 last_mouse_px_ = dvec2(0), drag_start_px_ = dvec2(0), last_click_px_ = dvec2(0);
+	double dragged_px_ = 0, last_click_s_ = 0;
 	int dragged_button_ = -1;  // that went down over the picture and is still held
 };
 

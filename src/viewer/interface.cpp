@@ -2,6 +2,7 @@
 
 #include "scene/builtin.h"
 #include "viewer/completion.h"
+#include "viewer/gizmos.h"
 #include "viewer/input.h"
 #include "viewer/panels/panels.h"
 
@@ -199,6 +200,8 @@ std::vector<std::string> viewportWarnings(const Session& session)
 	std::vector<std::string> warnings;
 	if (!session.error.empty())
 		warnings.push_back(session.error);
+	if (!session.shaders.error.empty())
+		warnings.push_back("Shaders do not compile, the old ones stay:\n" + session.shaders.error);
 	if (std::string coarse = coarseningWarning(session.shown.result); !coarse.empty())
 		warnings.push_back(std::move(coarse));
 	if (session.shown.result.rounds > 1)
@@ -221,6 +224,7 @@ void drawInterface(Ui& ui, Session& session, uvec2 window_px)
 		drawSideBar(ui, session, low.y, low.x);
 		session.viewport_low = { uint32_t(low.x * io.DisplayFramebufferScale.x), uint32_t(low.y * io.DisplayFramebufferScale.y) };
 		session.viewport_size = glm::max(ivec2(window_px) - ivec2(session.viewport_low), ivec2(1));
+		drawGizmos(session);
 		drawMessages(session, low, size);
 		if (session.asks_for_path)
 			drawOpenField(ui, session);

@@ -4,6 +4,7 @@
 #include "app/options.h"
 #include "frame/renderer.h"
 #include "viewer/history.h"
+#include "viewer/inspector.h"
 #include "viewer/limits.h"
 #include "viewer/loader.h"
 
@@ -18,12 +19,30 @@ namespace tessera::view
 struct ShownFrame
 {
 	uint64_t number = 0;  // 0: none yet
-	Camera camera;
+	Camera camera;        // that it was culled and tessellated for
+	Camera drawn_from;    // that it is seen from
 	AppOptions options;
 	FrameResult result;
 	FramePlan plan;
 	PlanInput input;
 	MemoryStats memory;
+	std::vector<ClusterRef> visible;  // only while gizmos are drawn
+};
+
+// Lines over the picture.
+struct Gizmos
+{
+	bool instances = false, clusters = false, cones = false;
+	bool kept = true, culled = true;  // which of them
+	bool any() const { return instances || clusters || cones; }
+};
+
+struct ShaderState
+{
+	bool is_compiling = false;
+	uint64_t reloads = 0;  // that came to something
+	size_t replaced = 0;   // by the last
+	std::string error;     // the compiler's text; empty: the last reload was good
 };
 
 struct LogEntry
@@ -38,6 +57,8 @@ struct Requests
 	std::optional<std::string> open;    // a scene
 	std::optional<size_t> file_camera;  // of the scene
 	bool reset_camera = false, frame_selection = false, copy_command = false, screenshot = false, reload_shaders = false;
+	std::optional<uvec2> pick;      // a pixel of the picture
+	std::optional<uvec2> recentre;  // on what this pixel sees
 	bool write_state = false, switch_full_screen = false, quit = false, fit_lists = false;
 };
 
@@ -48,6 +69,11 @@ struct Session
 	std::string scene_name;  // as it was asked for
 	AppOptions options;      // as the panels have it: the next frame follows
 	Camera camera;           // that the picture is drawn from
+	// Culling and tessellation stay for (frozen), or follow (the debug camera, moved with Shift), another camera.
+	Camera culled_camera;
+	bool is_frozen = false, debug_camera = false;
+	bool separates() const { return is_frozen || debug_camera; }
+	Gizmos gizmos;
 
 	// What has been seen.
 	ShownFrame shown;
@@ -57,6 +83,8 @@ struct Session
 	std::deque<LogEntry> log;
 	std::string error;         // of the last thing that could not be done, one line; stays until something can
 	std::string command_line;  // that was copied last
+	std::optional<Inspection> inspection;
+	ShaderState shaders;
 
 	// The window.
 	bool shows_interface = true;

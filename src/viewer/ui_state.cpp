@@ -57,7 +57,36 @@ ordered_json frameJson(const Session& session)
 			 { "device_ms", session.device_ms.median() },
 			 { "passes", passes },
 			 { "options", optionsJson(shown.options) },
-			 { "camera", cameraJson(shown.camera) } };
+			 { "camera", cameraJson(shown.camera) },
+			 { "drawn_from", cameraJson(shown.drawn_from) } };
+}
+
+ordered_json inspectionJson(const Session& session)
+{
+	if (!session.inspection)
+		return nullptr;
+	const Inspection& found = *session.inspection;
+	ordered_json json = { { "pixel", { found.pixel.x, found.pixel.y } }, { "covered", found.covered } };
+	if (!found.covered)
+	{
+		json["why_not"] = found.why_not;
+		return json;
+	}
+	json["instance"] = found.cluster.instance;
+	json["cluster"] = found.cluster.cluster;
+	json["triangle"] = found.triangle;
+	json["material"] = found.material_name;
+	json["is_part"] = found.is_part;
+	json["factors"] = found.factors;
+	json["config"] = found.config;
+	json["micro_triangle"] = found.micro;
+	json["pattern_triangles"] = found.pattern_triangles.size();
+	json["splits"] = found.splits.size();
+	json["batch"] = { { "parts", found.batch_parts }, { "vertices", found.batch_vertices }, { "triangles", found.batch_triangles } };
+	json["depth"] = found.depth_world;
+	for (const InspectedVertex& vertex : found.vertices)
+		json["positions"].push_back(vectorJson(vertex.position_world));
+	return json;
 }
 
 ordered_json widgetsJson(const Ui& ui)
@@ -83,6 +112,14 @@ ordered_json uiState(const Session& session, const Ui& ui, uint64_t written)
 	json["camera"] = cameraJson(session.camera);
 	json["frame"] = frameJson(session);
 	json["lists"] = listsJson(session);
+	json["frozen"] = session.is_frozen;
+	json["debug_camera"] = session.debug_camera;
+	json["culled_camera"] = cameraJson(session.culled_camera);
+	json["inspection"] = inspectionJson(session);
+	json["shaders"] = { { "compiling", session.shaders.is_compiling },
+						{ "reloads", session.shaders.reloads },
+						{ "replaced", session.shaders.replaced },
+						{ "error", session.shaders.error } };
 	json["command_line"] = session.command_line;
 	json["viewport"] = { { "low", { session.viewport_low.x, session.viewport_low.y } },
 						 { "size", { session.viewport_size.x, session.viewport_size.y } } };

@@ -5,6 +5,7 @@
 #include "viewer/log_inbox.h"
 #include "viewer/presenter.h"
 #include "viewer/session.h"
+#include "viewer/shader_compiler.h"
 #include "viewer/ui.h"
 
 #include <chrono>
@@ -37,6 +38,9 @@ private:
 	void load(const std::string& scene, bool keeps_camera);
 	void takeScreenshot();
 	void copyCommand();
+	void reloadShaders();
+	void takeShaders();  // that were compiled, between two frames
+	Status readBack();   // gizmos and the inspected pixel, of a frame that is finished
 	Status writeState();
 	void takeLog();
 	void report(const Error& error);
@@ -48,17 +52,20 @@ private:
 	Input input_;
 	LogInbox log_inbox_;
 	SceneLoader loader_;
+	ShaderReloader reloader_;
 	std::unique_ptr<Window> window_;
 	std::unique_ptr<Device> device_;
 	std::unique_ptr<Presenter> presenter_;
 	std::unique_ptr<Renderer> renderer_;
-	std::shared_ptr<LoadedScene> renderer_scene_;    // that renderer_ draws: it must outlive it
-	std::shared_ptr<LoadedScene> next_scene_;        // loaded, and taken between two frames
-	AppOptions applied_;                             // what renderer_ has
-	AppOptions loaded_;                              // what the scene was asked for with
-	ShownFrame running_;                             // the frame that is drawn
-	bool is_running_ = false, has_picture_ = false;  // a picture waits for the window
-	bool has_failed_ = false;                        // the last frame could not be drawn: waits for other options
+	std::shared_ptr<LoadedScene> renderer_scene_;       // that renderer_ draws: it must outlive it
+	std::shared_ptr<LoadedScene> next_scene_;           // loaded, and taken between two frames
+	AppOptions applied_;                                // what renderer_ has
+	AppOptions loaded_;                                 // what the scene was asked for with
+	std::unique_ptr<reference::HostScene> host_scene_;  // of renderer_scene_, made when first needed
+	std::optional<uvec2> asked_pixel_, asked_centre_;   // of the frame that is drawn
+	ShownFrame running_;                                // the frame that is drawn
+	bool is_running_ = false, has_picture_ = false;     // a picture waits for the window
+	bool has_failed_ = false;                           // the last frame could not be drawn: waits for other options
 	uint64_t begun_ = 0, written_ = 0, screenshots_ = 0;
 	Clock::time_point started_ = Clock::now();
 	double last_turn_s_ = 0, last_window_s_ = 0, last_picture_s_ = 0;

@@ -106,8 +106,8 @@ HostLayout viewLayout()
 	HostLayout layout =
 		LAYOUT(12, View, eye_high, eye_low, right, up, forward, unit, inverse_unit_squared, focal_x, focal_y, depth_slope, depth_offset, w_slope);
 	const HostLayout rest =
-		LAYOUT(14, View, w_offset, near, distance_weight, distance_floor_squared, rate_over_focal_squared, sample_over_focal_squared,
-			   displacement_scale, width_px, height_px, width_subpixels, height_subpixels, ray_first, ray_x, ray_y);
+		LAYOUT(16, View, w_offset, near, distance_weight, distance_floor_squared, rate_over_focal_squared, sample_over_focal_squared,
+			   displacement_scale, width_px, height_px, width_subpixels, height_subpixels, ray_first, ray_x, ray_y, draw_eye, draw_offset);
 	layout.fields.insert(layout.fields.end(), rest.fields.begin(), rest.fields.end());
 	return layout;
 }

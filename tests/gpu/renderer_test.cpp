@@ -20,9 +20,9 @@ std::unique_ptr<Renderer> makeRenderer(const GpuScene& scene, const RenderOption
 	return made ? std::move(*made) : nullptr;
 }
 
-FrameResult drawPolled(Renderer& renderer, const Camera& camera)
+FrameResult drawPolled(Renderer& renderer, const Camera& camera, const std::optional<Camera>& drawn_from = {})
 {
-	EXPECT_TRUE(renderer.beginFrame(camera).has_value());
+	EXPECT_TRUE(renderer.beginFrame({ camera, drawn_from, {}, {} }).has_value());
 	for (;;)
 	{
 		const auto result = renderer.pollFrame();
@@ -95,6 +95,54 @@ TEST_F(longLivedRenderer, changedOptionsGiveThePictureOfARendererMadeWithThem)
 		EXPECT_EQ(found.counts.micro_triangles, expected->counts.micro_triangles);
 		EXPECT_EQ(pictureOf(*renderer), pictureOf(*fresh));
 		EXPECT_EQ(renderer->memory().geometry, fresh->memory().geometry) << "something unneeded is kept, or something needed is missing";
+	}
+}
+
+TEST_F(longLivedRenderer, aSecondCameraSeesWhatTheFirstIsTessellatedFor)
+{
+	const auto scene = gpuScene("builtin:planet");
+	const Camera first = closeTo(*scene, 0.6);
+	Camera second = scene->camera;
+	second.eye = second.target + dvec3(glm::length(second.eye - second.target), 0, 0);
+	for (Raster raster : rasterPaths())
+	{
+		SCOPED_TRACE(rasterName(raster));
+		RenderOptions options = smallOptions(4);
+		options.raster = raster;
+		const auto renderer = makeRenderer(*scene, options);
+		const FrameResult alone = drawPolled(*renderer, first);
+		const std::vector<uint8_t> seen_alone = pictureOf(*renderer);
+		const FrameResult same = drawPolled(*renderer, first, first);
+		EXPECT_EQ(pictureOf(*renderer), seen_alone) << "the same camera twice is one camera";
+		const FrameResult other = drawPolled(*renderer, first, second);
+		EXPECT_EQ(other.counts.micro_triangles, alone.counts.micro_triangles);
+		EXPECT_EQ(other.counts.visible_clusters, alone.counts.visible_clusters);
+		EXPECT_EQ(same.counts.micro_triangles, alone.counts.micro_triangles);
+		EXPECT_NE(pictureOf(*renderer), seen_alone);
+		drawPolled(*renderer, first);
+		EXPECT_EQ(pictureOf(*renderer), seen_alone) << "nothing of the second camera stays";
+	}
+}
+
+TEST_F(longLivedRenderer, aSecondCameraSeesTheSurfaceWhereItIs)
+{
+	// Nothing is culled or cut, and heights do not depend on the distance: from the second camera it looks as if it were the only one.
+	const auto scene = gpuScene("builtin:planet");
+	Camera second = closeTo(*scene, 0.8);
+	second.up = { 0.3, 1, 0.2 };
+	for (Raster raster : rasterPaths())
+	{
+		SCOPED_TRACE(rasterName(raster));
+		RenderOptions options = smallOptions(0);
+		options.raster = raster;
+		options.cull = { false, false, false };
+		options.view = ViewMode::Triangles;
+		const auto renderer = makeRenderer(*scene, options);
+		drawPolled(*renderer, second);
+		const std::vector<uint8_t> alone = pictureOf(*renderer);
+		const FrameResult result = drawPolled(*renderer, scene->camera, second);
+		EXPECT_GT(result.counts.covered_pixels, 3000u);
+		EXPECT_LT(differingPixels(pictureOf(*renderer), alone, 8), 40u) << "but for pixels at edges, where positions are rounded otherwise";
 	}
 }
 

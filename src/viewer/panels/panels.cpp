@@ -5,8 +5,8 @@ namespace tessera::view
 
 std::span<const Panel> panels()
 {
-	static const Panel kPanels[] = { kCameraPanel,  kTessellationPanel, kRasterPanel, kViewPanel,  kScenePanel, kLimitsPanel,
-									 kTimingsPanel, kMemoryPanel,       kPlanPanel,   kGatesPanel, kLogPanel };
+	static const Panel kPanels[] = { kCameraPanel, kTessellationPanel, kRasterPanel, kViewPanel,      kScenePanel,   kLimitsPanel, kTimingsPanel,
+									 kMemoryPanel, kPlanPanel,         kGatesPanel,  kInspectorPanel, kShadersPanel, kLogPanel };
 	return kPanels;
 }
 

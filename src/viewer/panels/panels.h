@@ -20,7 +20,7 @@ struct Panel
 std::span<const Panel> panels();
 
 extern const Panel kCameraPanel, kTessellationPanel, kRasterPanel, kViewPanel, kScenePanel, kLimitsPanel, kTimingsPanel, kMemoryPanel, kPlanPanel,
-	kGatesPanel, kLogPanel;
+	kGatesPanel, kInspectorPanel, kShadersPanel, kLogPanel;
 
 // Rows of the option table that mean nothing in a window: they belong to single pictures, reports or the start.
 std::span<const std::string_view> optionsWithoutPanel();

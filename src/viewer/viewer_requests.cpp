@@ -1,0 +1,108 @@
+// What panels and keys ask of the viewer.
+#include "app/stats_json.h"
+#include "base/log.h"
+#include "output/png.h"
+#include "viewer/camera_control.h"
+#include "viewer/option_text_form.h"
+#include "viewer/ui_state.h"
+#include "viewer/viewer.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+namespace tessera::view
+{
+
+namespace
+{
+
+double radiusOf(const BuiltScene& scene)
+{
+	return std::max(boundingRadius(scene), 1e-6);
+}
+
+}  // namespace
+
+void Viewer::doRequests()
+{
+	Requests requests = std::exchange(session_.requests, {});
+	if (requests.quit)
+		window_->close();
+	if (requests.open)
+		load(*requests.open, false);
+	if (requests.switch_full_screen)
+		window_->setFullScreen(!window_->isFullScreen());
+	session_.is_full_screen = window_->isFullScreen();
+	if (requests.fit_lists)
+		session_.options.capacities = session_.high_water.fittingCapacities();
+	if (requests.fit_lists)
+		session_.options.lists_bytes = 0;
+	if (requests.write_state)
+		if (const Status written = writeState(); !written)
+			report(written.error());
+	if (!session_.scene)
+		return;
+	const Subject& subject = session_.scene->subject;
+	if (requests.reset_camera)
+		session_.camera = subject.camera;
+	if (requests.file_camera)
+		session_.camera = cameraOf(subject.scene.cameras[*requests.file_camera], subject.scene);
+	if (requests.frame_selection)
+		session_.camera = framing(session_.camera, (subject.scene.world_low + subject.scene.world_high) / 2.0, radiusOf(subject.scene),
+								  double(session_.viewport_size.x) / session_.viewport_size.y);
+	if (requests.copy_command)
+		copyCommand();
+	if (requests.reload_shaders && renderer_)
+		reloadShaders();
+	session_.requests.pick = requests.pick;
+	session_.requests.recentre = requests.recentre;
+	if (requests.screenshot && !is_running_ && renderer_)
+		takeScreenshot();
+	else
+		session_.requests.screenshot |= requests.screenshot;
+}
+
+void Viewer::reloadShaders()
+{
+	if (!reloader_.hasSources())
+		return report({ ExitCode::BadInput, fmt::format("no sources of the shaders in {}; --shaders names a folder", reloader_.folder().string()) });
+	reloader_.start(renderer_->shaderNames());
+}
+
+void Viewer::copyCommand()
+{
+	session_.command_line = renderCommandLine(session_.scene_name, session_.options, session_.camera);
+	window_->setClipboard(session_.command_line);
+	logInfo("{}", session_.command_line);
+}
+
+void Viewer::takeScreenshot()
+{
+	std::string path;
+	do
+		path = fmt::format("tessera_{}.png", ++screenshots_);
+	while (std::filesystem::exists(path));
+	const RenderOptions& options = renderer_->planInput().options;
+	const auto picture = renderer_->readPicture();
+	if (!picture)
+		return report(picture.error());
+	if (const Status written = writePng(path, options.width_px, options.height_px, *picture, 4); !written)
+		return report(written.error());
+	logInfo("wrote {}", path);
+}
+
+Status Viewer::writeState()
+{
+	if (line_.ui_state.empty())
+		return {};
+	return writeJson(line_.ui_state, uiState(session_, ui_, ++written_));
+}
+
+void Viewer::report(const Error& error)
+{
+	session_.error = error.message;
+	logWarning("{}", error.message);
+}
+
+}  // namespace tessera::view
