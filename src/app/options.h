@@ -35,6 +35,7 @@ struct AppOptions : RenderOptions
 	std::optional<dvec3> grid_u, grid_v;  // world units; absent: a little more than the scene's size
 	Metric metric = Metric::Edge;
 	std::vector<std::string> displacements;
+	std::string camera_path;  // file; empty: one camera
 	uint32_t frames = 1, warmup = 0;
 	// What a report tries (verify shares the rates), and what it is to recommend.
 	std::vector<double> rates;                   // empty: ratesOf (list_options.h) has the default

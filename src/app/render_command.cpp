@@ -1,3 +1,4 @@
+#include "app/camera_path.h"
 #include "app/commands.h"
 #include "app/option_text.h"
 #include "app/rate_for_error.h"
@@ -46,15 +47,42 @@ std::string coarseningText(const FrameResult& result)
 					   result.rate_wanted, granted, tightLists(result));
 }
 
-Result<FrameSeries> drawFrames(Renderer& renderer, const Camera& camera, const AppOptions& options)
+// The path of --camera-path, or the one camera.
+Result<CameraPath> pathOf(const Camera& camera, const AppOptions& options)
 {
+	if (options.camera_path.empty())
+		return CameraPath{ { { 0, camera } } };
+	return readCameraPath(options.camera_path);
+}
+
+// "frame_0012.png" of "frame_####.png"; as it is without such signs.
+std::string numbered(const std::string& path, uint32_t index)
+{
+	const size_t first = path.find('#');
+	if (first == std::string::npos)
+		return path;
+	const size_t end = std::min(path.find_first_not_of('#', first), path.size());
+	return fmt::format("{}{:0{}}{}", path.substr(0, first), index, end - first, path.substr(end));
+}
+
+// Draws --warmup frames from the path's start and --frames spread over it evenly, both ends included. Pictures of those before the last are written
+// when `picture_path` tells them apart.
+Result<FrameSeries> drawFrames(Renderer& renderer, const Camera& camera, const AppOptions& options, const std::string& picture_path)
+{
+	TRY_ASSIGN(const CameraPath path, pathOf(camera, options));
 	FrameSeries series;
 	for (uint32_t i = 0; i < options.warmup; ++i)
-		TRY(renderer.renderFrame(camera));
+		TRY(renderer.renderFrame(path.at(0)));
 	for (uint32_t i = 0; i < options.frames; ++i)
 	{
-		TRY_ASSIGN(const FrameResult result, renderer.renderFrame(camera));
+		const double time = options.frames > 1 ? path.duration_s() * i / (options.frames - 1) : 0;
+		TRY_ASSIGN(const FrameResult result, renderer.renderFrame(path.at(time)));
 		series.add(result);
+		if (i + 1 < options.frames && picture_path.find('#') != std::string::npos)
+		{
+			TRY_ASSIGN(const std::vector<uint8_t> picture, renderer.readPicture());
+			TRY(writePng(numbered(picture_path, i), options.width_px, options.height_px, picture, 4));
+		}
 	}
 	const FrameResult& last = series.last;
 	logInfo("drew {}: {} of {} and {}, {:.3f} ms on the device", counted(options.frames, "frame"),
@@ -76,10 +104,11 @@ Status drawAndWrite(const CommandLine& line, const AppOptions& options, const st
 {
 	TRY_ASSIGN(const std::unique_ptr<Renderer> renderer, Renderer::create(device, subject.scene, subject.table, framePasses(), options));
 	logInfo("drawing {}x{} at {} pixels per segment", options.width_px, options.height_px, options.rate);
-	TRY_ASSIGN(const FrameSeries series, drawFrames(*renderer, subject.camera, options));
+	TRY_ASSIGN(const FrameSeries series, drawFrames(*renderer, subject.camera, options, picture_path));
 	TRY_ASSIGN(const std::vector<uint8_t> picture, renderer->readPicture());
-	TRY(writePng(picture_path, options.width_px, options.height_px, picture, 4));
-	logInfo("wrote {}", picture_path);
+	const std::string last_path = numbered(picture_path, options.frames - 1);
+	TRY(writePng(last_path, options.width_px, options.height_px, picture, 4));
+	logInfo("wrote {}", last_path);
 	if (line.stats.empty())
 		return {};
 	const RunFacts facts = { device, subject.scene, options, subject.camera, renderer->plan(), renderer->planInput(), series, renderer->memory() };

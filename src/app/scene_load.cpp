@@ -1,5 +1,6 @@
 #include "app/scene_load.h"
 
+#include "app/camera_path.h"
 #include "app/option_text.h"
 #include "base/check.h"
 #include "base/log.h"
@@ -138,6 +139,11 @@ Result<TessellationTable> loadChosenTable(const AppOptions& options)
 Result<Camera> chooseCamera(const BuiltScene& scene, const AppOptions& options)
 {
 	TRY_ASSIGN(Camera camera, baseCamera(scene, options));
+	if (!options.camera_path.empty())
+	{
+		TRY_ASSIGN(const CameraPath path, readCameraPath(options.camera_path));
+		camera = path.at(0);
+	}
 	if (options.eye && !options.target)
 		camera.target = (scene.world_low + scene.world_high) / 2.0;
 	camera.eye = options.eye.value_or(camera.eye);

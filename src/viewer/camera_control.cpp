@@ -125,19 +125,6 @@ Camera withFov(const Camera& camera, double fov_deg)
 	return moved;
 }
 
-Camera between(const Camera& from, const Camera& to, double t)
-{
-	if (t >= 1)
-		return to;
-	Camera camera = from;
-	camera.eye = glm::mix(from.eye, to.eye, t);
-	camera.target = glm::mix(from.target, to.target, t);
-	camera.up = glm::mix(glm::normalize(from.up), glm::normalize(to.up), t);
-	camera.fov_y_rad = glm::mix(from.fov_y_rad, to.fov_y_rad, t);
-	camera.height_world = glm::mix(from.height_world, to.height_world, t);
-	return camera;
-}
-
 dvec3 pointAt(const Camera& camera, dvec2 pixel, uvec2 size_px, double depth_world)
 {
 	const Axes axes = axesOf(camera);

@@ -29,9 +29,6 @@ Camera framing(const Camera& camera, const dvec3& centre, double radius, double 
 // Another vertical field of view, 1 to 150 degrees; perspective from then on.
 Camera withFov(const Camera& camera, double fov_deg);
 
-// `t` of the way from one to the other, 0..1: eyes and targets on straight lines, fields of view in proportion.
-Camera between(const Camera& from, const Camera& to, double t);
-
 // World position of a point in the picture at this depth along the view: pixel centres are at .5.
 dvec3 pointAt(const Camera& camera, dvec2 pixel, uvec2 size_px, double depth_world);
 

@@ -1,8 +1,8 @@
 #include "viewer/option_text_form.h"
 
+#include "app/camera_path.h"
+
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace tessera::view
 {
@@ -10,21 +10,9 @@ namespace tessera::view
 namespace
 {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
-
 // Say how the program runs, not what it draws.
 constexpr std::string_view kNotOfThePicture[] = { "frames", "warmup", "rates",     "rasters",  "sizes",  "reference-rate", "max-error-px",
 												  "max-ms", "resume", "pipelines", "validate", "strict", "quiet" };
-
-// Degrees that become the same bits as `rad` when multiplied again: the quotient may be one step off.
-double degreesOf(double rad)
-{
-	const double degrees = rad / kDegree;
-	for (const double candidate : { degrees, std::nextafter(degrees, 0.0), std::nextafter(degrees, 360.0) })
-		if (candidate * kDegree == rad)
-			return candidate;
-	return degrees;
-}
 
 std::string quoted(const std::string& text)
 {
@@ -55,6 +43,7 @@ AppOptions withCamera(const AppOptions& options, const Camera& camera)
 {
 	AppOptions changed = options;
 	changed.camera.reset();
+	changed.camera_path.clear();
 	changed.eye = camera.eye;
 	changed.target = camera.target;
 	changed.up = camera.up;

@@ -204,6 +204,13 @@ Status Presenter::record(VkCommandBuffer commands, uint32_t image, const std::op
 	return {};
 }
 
+Status Presenter::wait()
+{
+	for (const Slot& slot : slots_)
+		VK_TRY(vkWaitForFences(device_.handle, 1, &slot.finished, VK_TRUE, UINT64_MAX), "view: waiting for a frame of the window");
+	return {};
+}
+
 Result<bool> Presenter::draw(const std::optional<ScenePicture>& picture, ivec2 place_px, ImDrawData* interface)
 {
 	TRY(fitSwapchain());

@@ -30,6 +30,9 @@ public:
 	// window has no size. Waits for the frame before the last, never for one of the scene. Errors: DeviceLost.
 	Result<bool> draw(const std::optional<ScenePicture>& picture, ivec2 place_px, ImDrawData* interface);
 
+	// Waits for the frames of the window: what they read may be let go then.
+	Status wait();
+
 	void setVsync(bool on) { vsync_ = on; }
 	bool isVsync() const { return vsync_; }
 	bool canSwitchVsync() const { return swapchain_->canSwitchVsync(); }

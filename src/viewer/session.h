@@ -1,6 +1,7 @@
 // What the viewer knows and shows, and what its panels ask for. Panels read it, change `options` and set requests; the viewer does the rest
 // between two frames.
 #pragma once
+#include "app/camera_path.h"
 #include "app/options.h"
 #include "frame/renderer.h"
 #include "viewer/history.h"
@@ -59,6 +60,7 @@ struct Requests
 	bool reset_camera = false, frame_selection = false, copy_command = false, screenshot = false, reload_shaders = false;
 	std::optional<uvec2> pick;      // a pixel of the picture
 	std::optional<uvec2> recentre;  // on what this pixel sees
+	bool save_path = false, load_path = false;
 	bool write_state = false, switch_full_screen = false, quit = false, fit_lists = false;
 };
 
@@ -96,6 +98,12 @@ struct Session
 	const SceneLoader* loader = nullptr;
 	const Device* device = nullptr;
 	Requests requests;
+
+	// Stored viewpoints, which are a path when they are played.
+	CameraPath path;
+	std::string path_file = "camera_path.json";
+	bool records_path = false, plays_path = false;
+	double path_time_s = 0;  // while it plays
 };
 
 }  // namespace tessera::view

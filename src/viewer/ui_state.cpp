@@ -115,6 +115,7 @@ ordered_json uiState(const Session& session, const Ui& ui, uint64_t written)
 	json["frozen"] = session.is_frozen;
 	json["debug_camera"] = session.debug_camera;
 	json["culled_camera"] = cameraJson(session.culled_camera);
+	json["path"] = { { "keys", session.path.keys.size() }, { "plays", session.plays_path }, { "records", session.records_path } };
 	json["inspection"] = inspectionJson(session);
 	json["shaders"] = { { "compiling", session.shaders.is_compiling },
 						{ "reloads", session.shaders.reloads },

@@ -78,6 +78,7 @@ Status Viewer::turn()
 	const WindowEvents events = window_->poll(idles ? kIdlePeriod_s : is_running_ ? kPollPeriod_s : 0);
 	const double time = now();
 	input_.apply(events, *window_, time - last_turn_s_, session_);
+	movePath(time - last_turn_s_);
 	last_turn_s_ = time;
 	takeLog();
 	TRY(pollScene());

@@ -38,6 +38,8 @@ private:
 	void load(const std::string& scene, bool keeps_camera);
 	void takeScreenshot();
 	void copyCommand();
+	void loadPath(const std::string& file);
+	void movePath(double elapsed_s);  // plays or records
 	void reloadShaders();
 	void takeShaders();  // that were compiled, between two frames
 	Status readBack();   // gizmos and the inspected pixel, of a frame that is finished
@@ -68,6 +70,7 @@ private:
 	bool has_failed_ = false;                           // the last frame could not be drawn: waits for other options
 	uint64_t begun_ = 0, written_ = 0, screenshots_ = 0;
 	Clock::time_point started_ = Clock::now();
+	double recorded_s_ = 0;  // since the last key
 	double last_turn_s_ = 0, last_window_s_ = 0, last_picture_s_ = 0;
 };
 

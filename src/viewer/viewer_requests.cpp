@@ -1,5 +1,6 @@
 // What panels and keys ask of the viewer.
 #include "app/stats_json.h"
+#include "base/file.h"
 #include "base/log.h"
 #include "output/png.h"
 #include "viewer/camera_control.h"
@@ -16,6 +17,8 @@ namespace tessera::view
 
 namespace
 {
+
+constexpr double kRecordPeriod_s = 0.25;
 
 double radiusOf(const BuiltScene& scene)
 {
@@ -51,6 +54,11 @@ void Viewer::doRequests()
 	if (requests.frame_selection)
 		session_.camera = framing(session_.camera, (subject.scene.world_low + subject.scene.world_high) / 2.0, radiusOf(subject.scene),
 								  double(session_.viewport_size.x) / session_.viewport_size.y);
+	if (requests.save_path && !session_.path.keys.empty())
+		if (const Status written = writeFile(session_.path_file, cameraPathText(session_.path)); !written)
+			report(written.error());
+	if (requests.load_path)
+		loadPath(session_.path_file);
 	if (requests.copy_command)
 		copyCommand();
 	if (requests.reload_shaders && renderer_)
@@ -68,6 +76,36 @@ void Viewer::reloadShaders()
 	if (!reloader_.hasSources())
 		return report({ ExitCode::BadInput, fmt::format("no sources of the shaders in {}; --shaders names a folder", reloader_.folder().string()) });
 	reloader_.start(renderer_->shaderNames());
+}
+
+void Viewer::loadPath(const std::string& file)
+{
+	auto path = readCameraPath(file);
+	if (!path)
+		return report(path.error());
+	session_.path = std::move(*path);
+	session_.path_file = file;
+	session_.error.clear();
+}
+
+void Viewer::movePath(double elapsed_s)
+{
+	CameraPath& path = session_.path;
+	if (session_.plays_path)
+	{
+		session_.path_time_s += elapsed_s;
+		session_.camera = path.at(session_.path_time_s);
+		session_.plays_path = session_.path_time_s < path.duration_s();
+		return;
+	}
+	if (!session_.records_path || (!path.keys.empty() && path.keys.back().camera == session_.camera))
+		return;
+	recorded_s_ += elapsed_s;
+	if (path.keys.empty() || recorded_s_ >= kRecordPeriod_s)
+	{
+		path.keys.push_back({ path.keys.empty() ? 0 : path.duration_s() + recorded_s_, session_.camera });
+		recorded_s_ = 0;
+	}
 }
 
 void Viewer::copyCommand()

@@ -32,6 +32,8 @@ void Viewer::takeScene()
 	const std::shared_ptr<LoadedScene> scene = std::exchange(next_scene_, nullptr);
 	if (!made)
 		return report(made.error());
+	if (const Status waited = presenter_->wait(); !waited)
+		return report(waited.error());
 	host_scene_.reset();
 	session_.inspection.reset();
 	session_.is_frozen = session_.debug_camera = false;
@@ -45,6 +47,8 @@ void Viewer::takeScene()
 	has_failed_ = false;
 	if (!keeps_camera)
 		session_.camera = scene->subject.camera;
+	if (!session_.options.camera_path.empty())
+		loadPath(session_.options.camera_path);
 	window_->setTitle("tessera: " + session_.scene_name);
 }
 
@@ -56,6 +60,8 @@ bool Viewer::followOptions()
 	const bool differs = optionsJson(applied_) != optionsJson(session_.options);
 	if (!differs)
 		return !has_failed_;
+	if (const Status waited = presenter_->wait(); !waited)
+		return report(waited.error()), false;
 	const bool needs_scene = stale >= Rebuild::Scene || applied_.table != session_.options.table;
 	if (const Status set = renderer_->setOptions(session_.options); !set)
 	{

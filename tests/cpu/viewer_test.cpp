@@ -1,4 +1,5 @@
 // What of the viewer is pure: cameras, command lines, panels, limits, histories, completion.
+#include "app/camera_path.h"
 #include "app/scene_load.h"
 #include "scene/build.h"
 #include "viewer/camera_control.h"
@@ -134,6 +135,63 @@ TEST(cameraControl, dollyStepsAreUndoneByStepsBack)
 	const Camera camera = dollied(dollied(someCamera(), 5), -5);
 	EXPECT_NEAR(glm::length(camera.eye - someCamera().eye), 0, 1e-12);
 	EXPECT_LT(distanceOf(dollied(someCamera(), 1)), distanceOf(someCamera()));
+}
+
+TEST(cameraPath, readsBackBitForBitAndPassesThroughItsKeys)
+{
+	CameraPath path;
+	for (int i = 0; i < 5; ++i)
+	{
+		Camera camera = withFov(orbited(someCamera(), { 0.37 * i, 0.11 * i }), 40 + i * 1.7);
+		camera.near_world = i * 0.01;
+		camera.orthographic = i == 4;
+		path.keys.push_back({ i * 0.7, camera });
+	}
+	const auto file = std::filesystem::temp_directory_path() / ("tessera_path_" + std::to_string(std::rand()) + ".json");
+	std::ofstream(file) << cameraPathText(path);
+	const auto read = readCameraPath(file);
+	std::filesystem::remove(file);
+	ASSERT_TRUE(read.has_value()) << read.error().message;
+	ASSERT_EQ(read->keys.size(), path.keys.size());
+	for (size_t i = 0; i < path.keys.size(); ++i)
+	{
+		Camera expected = path.keys[i].camera;
+		expected.height_world = expected.orthographic ? expected.height_world : read->keys[i].camera.height_world;
+		EXPECT_EQ(read->keys[i].time_s, path.keys[i].time_s);
+		EXPECT_EQ(read->keys[i].camera, expected) << i;
+		EXPECT_EQ(path.at(path.keys[i].time_s), path.keys[i].camera) << i;
+	}
+	EXPECT_EQ(path.at(-1), path.keys.front().camera);
+	EXPECT_EQ(path.at(99), path.keys.back().camera);
+	const Camera middle = path.at(0.35);
+	EXPECT_NEAR(glm::length(middle.eye - (path.keys[0].camera.eye + path.keys[1].camera.eye) / 2.0), 0, 1e-12);
+}
+
+TEST(cameraPath, refusesWhatIsNoPathWithThePlace)
+{
+	const auto file = std::filesystem::temp_directory_path() / ("tessera_path_" + std::to_string(std::rand()) + ".json");
+	const char* good = R"({"time_s": 0, "eye": [0,0,3], "target": [0,0,0], "up": [0,1,0]})";
+	const std::pair<std::string, const char*> wrong[] = {
+		{ "", "camera path" },
+		{ "[]", "camera path" },
+		{ R"({"keys": []})", "camera path" },
+		{ R"({"keys": [1]})", "key 0" },
+		{ R"({"keys": [{"time_s": 1, "eye": [0,0,3], "target": [0,0,0], "up": [0,1,0]}]})", "start at 0" },
+		{ std::string(R"({"keys": [)") + good + "," + good + "]}", "key 1: times" },
+		{ R"({"keys": [{"time_s": 0, "eye": [0,0,3], "target": [0,0,3], "up": [0,1,0]}]})", "differ" },
+		{ R"({"keys": [{"time_s": 0, "eye": [0,0,3], "target": [0,0,0], "up": [0,0,1]}]})", "along" },
+		{ R"({"keys": [{"time_s": 0, "eye": [0,0,"3"], "target": [0,0,0], "up": [0,1,0]}]})", "three finite" },
+		{ R"({"keys": [{"time_s": 0, "eye": [0,0,3], "target": [0,0,0], "up": [0,1,0], "fov_deg": 180}]})", "fov_deg" },
+	};
+	for (const auto& [text, message] : wrong)
+	{
+		std::ofstream(file) << text;
+		const auto read = readCameraPath(file);
+		ASSERT_FALSE(read.has_value()) << text;
+		EXPECT_NE(read.error().message.find(message), std::string::npos) << read.error().message;
+	}
+	std::filesystem::remove(file);
+	EXPECT_FALSE(readCameraPath(file).has_value());
 }
 
 TEST(renderCommandLine, readsBackAsTheSameOptionsAndCameraBits)

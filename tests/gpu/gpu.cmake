@@ -19,5 +19,13 @@ foreach(name IN ITEMS verify_test verify_slow_test)
   target_compile_definitions(gpu_${name} PRIVATE TESSERA_PROGRAM="$<TARGET_FILE:tessera>")
   add_dependencies(gpu_${name} tessera tessera_shaders)
 endforeach()
+
+# The viewer as a user drives it, on a display without a screen. Exit code 77: a tool is missing (thirdparty/setup.sh installs them).
+find_package(Python3 COMPONENTS Interpreter REQUIRED)
+add_test(NAME viewer.doesWhatAScriptOfClicksAndKeysAsks
+         COMMAND ${Python3_EXECUTABLE} ${here}/../viewer/viewer_script.py $<TARGET_FILE:tessera> ${PROJECT_SOURCE_DIR})
+set_tests_properties(viewer.doesWhatAScriptOfClicksAndKeysAsks PROPERTIES LABELS gpu TIMEOUT 900 SKIP_RETURN_CODE 77
+                     ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+
 gtest_discover_tests(gpu_verify_test PROPERTIES LABELS gpu)
 gtest_discover_tests(gpu_verify_slow_test PROPERTIES LABELS slow TIMEOUT 7200)

@@ -9,7 +9,7 @@ namespace
 {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-constexpr std::string_view kOptions[] = { "eye", "target", "up", "fov", "ortho", "near", "camera" };
+constexpr std::string_view kOptions[] = { "eye", "target", "up", "fov", "ortho", "near", "camera", "camera-path" };
 
 bool vectorRow(Ui& ui, const std::string& name, dvec3& vector, const std::string& tooltip)
 {
@@ -53,6 +53,41 @@ void drawFileCameras(Ui& ui, Session& session)
 			session.requests.file_camera = i;
 }
 
+constexpr double kKeyStep_s = 2;  // between viewpoints that are stored by hand
+
+void drawPath(Ui& ui, Session& session)
+{
+	CameraPath& path = session.path;
+	ImGui::Text("%zu viewpoints, a path of %.1f s", path.keys.size(), path.duration_s());
+	if (ui.button("path.store", "store", "this view becomes the path's next key, two seconds after the last"))
+		path.keys.push_back({ path.keys.empty() ? 0 : path.duration_s() + kKeyStep_s, session.camera });
+	ImGui::SameLine();
+	if (ui.button("path.record", session.records_path ? "stop recording" : "record", "store the view four times a second while it moves"))
+		session.records_path = !session.records_path;
+	ImGui::SameLine();
+	if (ui.button("path.play", session.plays_path ? "stop" : "play", "move along the path from its start") && !path.keys.empty())
+	{
+		session.plays_path = !session.plays_path;
+		session.path_time_s = 0;
+	}
+	ImGui::SameLine();
+	if (ui.button("path.clear", "clear", "forget all viewpoints"))
+		path.keys.clear();
+	session.plays_path &= !path.keys.empty();
+	for (size_t i = 0; i < path.keys.size() && i < 24; ++i)
+	{
+		if (ui.button(fmt::format("path.key.{}", i), fmt::format("{}", i + 1), fmt::format("back to the view at {:.2f} s", path.keys[i].time_s)))
+			session.camera = path.keys[i].camera;
+		if (i % 8 != 7)
+			ImGui::SameLine();
+	}
+	ImGui::NewLine();
+	ui.text("path.file", "file", session.path_file, "JSON; `tessera render --camera-path` takes it too");
+	session.requests.save_path |= ui.button("path.save", "save", "write the path to the file");
+	ImGui::SameLine();
+	session.requests.load_path |= ui.button("path.load", "load", "read the path from the file");
+}
+
 void draw(Ui& ui, Session& session)
 {
 	drawFields(ui, session);
@@ -63,6 +98,8 @@ void draw(Ui& ui, Session& session)
 	session.requests.copy_command |=
 		ui.button("camera.copy", "copy command", "put the `tessera render` command of this picture on the clipboard and into the log (Ctrl+C)");
 	drawFileCameras(ui, session);
+	ImGui::Separator();
+	drawPath(ui, session);
 }
 
 }  // namespace
