@@ -159,7 +159,7 @@ void placeByCorners(inout SurfacePixel pixel, vec2 centre, View view)
 		pixel.weights_y = weightsAt(pixel.visible, barycentricsAt(pixel.visible, centre + vec2(0.0, 1.0), view)) - weightsAt(pixel.visible, here);
 	}
 	vec3 facet = facetNormal(pixel.visible);
-	vec3 normal = HAS_SMOOTH_NORMALS && args.view_mode != VIEW_FACETS ? smoothNormal(pixel, view) : facet;
+	vec3 normal = HAS_SMOOTH_NORMALS && (args.view_mode & ~VIEW_WITH_WIREFRAME) != VIEW_FACETS ? smoothNormal(pixel, view) : facet;
 	pixel.normal = normalize(dot(normal, normal) > 0.0 ? normal : pixel.to_eye);
 	// Faceted normals and double-sided materials face the eye; smooth ones may lean a little behind the horizon.
 	bool back = dot(facet, pixel.to_eye) < 0.0;
@@ -232,10 +232,42 @@ vec3 wireframe(vec3 color, SurfacePixel pixel, vec2 centre, View view)
 // Half-Lambert light from the eye, so that debug colours keep the shape visible.
 vec3 shaped(vec3 color, SurfacePixel pixel) { return color * (0.55 + 0.45 * max(dot(pixel.normal, pixel.to_eye), 0.0)); }
 
+vec2 pixelOf(vec3 relative, View view)
+{
+	vec4 clip = clipPosition(relative, view);
+	return (clip.xy / clip.w * 0.5 + 0.5) * vec2(view.width_px, view.height_px);
+}
+
+// Area of the micro-triangle in the picture, square pixels.
+float areaPx(VisibleTriangle visible, View view)
+{
+	vec2 at = pixelOf(visible.relative[0], view);
+	vec2 along = pixelOf(visible.relative[1], view) - at;
+	vec2 across = pixelOf(visible.relative[2], view) - at;
+	return abs(along.x * across.y - along.y * across.x) * 0.5;
+}
+
+// How far the micro-triangle is from the surface that it stands for, in pixels at this distance: the same place of the base triangle on
+// the surface as a rate eight times finer would sample it.
+float errorPx(SurfacePixel pixel, vec2 centre, View view)
+{
+	VisibleTriangle visible = pixel.visible;
+	vec3 b = insideBarycentrics(barycentricsAt(visible, centre, view));
+	vec3 seen = visible.relative[0] * b.x + visible.relative[1] * b.y + visible.relative[2] * b.z;
+	View finer = view;
+	finer.sample_over_focal_squared /= 64.0;
+	DomainPoint at;
+	at.u = uint(clamp(pixel.weights.x, 0.0, 1.0) * float(DOMAIN_SIZE));
+	at.v = min(uint(clamp(pixel.weights.y, 0.0, 1.0) * float(DOMAIN_SIZE)), DOMAIN_SIZE - at.u);
+	vec3 surface = placed(visible.placement, surfacePoint(frame_surface, visible.base, at, visible.placement, finer).displaced);
+	float per_unit = view.focal_y * float(view.height_px) * 0.5 / abs(clipPosition(seen, view).w);
+	return length(surface - seen) * per_unit;
+}
+
 vec3 debugColor(SurfacePixel pixel, float depth, vec2 centre, View view)
 {
 	VisibleTriangle visible = pixel.visible;
-	switch (args.view_mode)
+	switch (args.view_mode & ~VIEW_WITH_WIREFRAME)
 	{
 	case VIEW_CLUSTERS: return shaped(hashColor(clusterHash(visible)), pixel);
 	case VIEW_PARTS: return shaped(hashColor(partHash(visible)), pixel);
@@ -246,6 +278,9 @@ vec3 debugColor(SurfacePixel pixel, float depth, vec2 centre, View view)
 	case VIEW_HEIGHT: return ramp(0.5 + 0.5 * tanh(pixel.displacement * inversesqrt(pixel.visible.placement.inverse_scale_squared) * 12.0));
 	case VIEW_INSTANCES: return shaped(hashColor(hashNext(17u, visible.instance)), pixel);
 	case VIEW_MATERIALS: return shaped(hashColor(hashNext(29u, visible.material)), pixel);
+	case VIEW_PRIMITIVES: return shaped(hashColor(hashNext(clusterHash(visible), visible.triangle)), pixel);
+	case VIEW_AREA: return shaped(ramp((log2(max(areaPx(visible, view), 1e-6)) + 4.0) / 12.0), pixel);
+	case VIEW_ERROR: return ramp((log2(max(errorPx(pixel, centre, view), 1e-6)) + 6.0) / 10.0);
 	case VIEW_WIREFRAME: return wireframe(vec3(0.55) * (0.3 + 0.7 * max(dot(pixel.normal, pixel.to_eye), 0.0)), pixel, centre, view);
 	default: return litColor(materialColor(pixel), pixel.normal, pixel.to_eye);
 	}
@@ -296,7 +331,13 @@ bool shadePlace(uvec2 place, View view)
 	if (IS_SHADED_VIEW)
 		args.picture.at[target] = encodePicture(litColor(materialColor(pixel), pixel.normal, pixel.to_eye), true);
 	else
-		args.picture.at[target] = encodePicture(debugColor(pixel, visibility.depth, centre, view), args.view_mode == VIEW_FACETS);
+	{
+		vec3 color = debugColor(pixel, visibility.depth, centre, view);
+		uint mode = args.view_mode & ~VIEW_WITH_WIREFRAME;
+		if ((args.view_mode & VIEW_WITH_WIREFRAME) != 0u)
+			color = wireframe(color, pixel, centre, view);
+		args.picture.at[target] = encodePicture(color, mode == VIEW_FACETS || mode == VIEW_SHADED);
+	}
 	return true;
 }
 

@@ -19,6 +19,10 @@ SHARED_BEGIN
 #define VIEW_HEIGHT 9u
 #define VIEW_INSTANCES 10u
 #define VIEW_MATERIALS 11u
+#define VIEW_PRIMITIVES 12u
+#define VIEW_AREA 13u
+#define VIEW_ERROR 14u
+#define VIEW_WITH_WIREFRAME 256u  // added to any of them
 
 struct ShadeArgs
 {
@@ -27,7 +31,7 @@ struct ShadeArgs
 	GPU_PTR(uint) picture;  // RGBA8, sRGB-encoded
 	GPU_PTR(FrameCounts) counts;
 	uint64_t visibility;  // address of a 64-bit word per pixel; 0 when attachments hold depth and payload
-	uint view_mode;
+	uint view_mode;  // VIEW_*
 	uint rounds;  // round | round_count << 16
 };
 SHARED_LAYOUT(ShadeArgs, 112, rounds, 108)

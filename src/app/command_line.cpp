@@ -74,6 +74,8 @@ void addViewOptions(CLI::App& app, CommandLine& line)
 		->type_name("FILE");
 	app.add_option("--shaders", line.shaders, "sources of the shaders, compiled again on R and when one changes; default: the program's own")
 		->type_name("FOLDER");
+	app.add_option("--settings", line.settings, "how the window was left, kept between starts; default: view.json in the user's configuration folder")
+		->type_name("FILE|off");
 }
 
 std::string outputHelp(Command command)
@@ -180,6 +182,7 @@ Result<CommandLine> parseCommand(const CommandDesc& command, std::vector<std::st
 		return fail(ExitCode::Usage, "{}: {}; `tessera {} --help` lists what it takes", command.name, error.what(), command.name);
 	}
 	TRY(status);
+	line.has_size = app.count("--size") > 0;
 	if (command.command == Command::View && app.count("--frames") > 0)
 		line.frame_limit = line.options.frames;
 	return line;

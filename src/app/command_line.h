@@ -33,6 +33,8 @@ struct CommandLine
 	bool shows_interface = true;
 	std::string ui_state;      // file; empty: none
 	std::string shaders;       // folder of GLSL sources; empty: the program's own
+	std::string settings;      // file; empty: the user's own; "off": none
+	bool has_size = false;     // --size was given
 	uint32_t frame_limit = 0;  // ends after this many; 0: when it is closed
 	AppOptions options;
 };

@@ -22,8 +22,8 @@ constexpr double kMostShown = 1e9;       // ranges that end higher are left out 
 
 constexpr std::string_view kMetricNames[] = { "edge" };
 constexpr std::string_view kShadingNames[] = { "smooth", "flat" };
-constexpr std::string_view kViewNames[] = { "shaded",  "clusters",  "parts",  "triangles", "factors",   "depth",
-											"normals", "wireframe", "facets", "height",    "instances", "materials" };
+constexpr std::string_view kViewNames[] = { "shaded", "clusters", "parts",     "triangles", "factors",    "depth", "normals", "wireframe",
+											"facets", "height",   "instances", "materials", "primitives", "area",  "error" };
 
 template <auto field>
 constexpr Choice choiceOf(std::span<const std::string_view> names)
@@ -205,6 +205,8 @@ const std::array kTable = {
 	OptionDesc{ "displacement-scale", "SCALE", "scales every displacement; 0 = none", &AppOptions::displacement_scale, -1e6, 1e6,
 				Rebuild::Pipelines },
 	OptionDesc{ "view", "NAME", "what the picture shows", choiceOf<&AppOptions::view>(kViewNames), 0, 0, Rebuild::Pipelines },
+	OptionDesc{ "wireframe", "", "sides of micro-triangles, and of base triangles in orange, over whatever the view shows", &AppOptions::wireframe, 0,
+				0, Rebuild::Pipelines },
 	OptionDesc{ "shading", "NAME", "normals of the shaded view: smooth under any rate, or flat per micro-triangle",
 				Choice{ kShadingNames, [](const AppOptions& options) { return size_t(options.smooth_normals ? 0 : 1); },
 						[](AppOptions& options, size_t index) {

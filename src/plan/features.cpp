@@ -26,7 +26,7 @@ std::vector<Feature> shaderFeatures(const PlanInput& input)
 		feature("HAS_MIXED_SIDES", 8, mixed_sides, "all materials show the same sides"),
 		feature("HAS_MIRRORED_INSTANCES", 9, input.scene.has_mirrored_instances, "no instance is mirrored"),
 		feature("HAS_SINGLE_SIDED", 10, input.scene.has_single_sided, "every material is double-sided"),
-		feature("IS_SHADED_VIEW", 11, input.options.view == ViewMode::Shaded, "a debug view is chosen"),
+		feature("IS_SHADED_VIEW", 11, input.options.view == ViewMode::Shaded && !input.options.wireframe, "a debug view or the wireframe is chosen"),
 		conditional("KEEPS_VERTICES", 12, kDraws),
 		conditional("EXPANDS_TRIANGLES", 13, kIndexed),
 		conditional("READS_BUFFER", 14, kSoft),

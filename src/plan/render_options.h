@@ -37,6 +37,9 @@ enum class ViewMode : uint8_t
 	Height,
 	Instances,
 	Materials,
+	Primitives,
+	Area,
+	Error,
 };
 
 // Kinds of culling, each can be switched off.
@@ -55,6 +58,7 @@ struct RenderOptions
 	Raster raster = Raster::Auto;
 	CullOptions cull;
 	ViewMode view = ViewMode::Shaded;
+	bool wireframe = false;  // sides of micro-triangles and base triangles over the view
 	float displacement_scale = 1;
 	bool smooth_normals = true;  // false: faceted shading
 	uint32_t width_px = 1920;

@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace tessera::view
@@ -206,7 +207,20 @@ void Input::fly(const Window& window, double elapsed_s, Session& session) const
 
 void Input::drop(const std::string& path, Session& session) const
 {
-	session.requests.open = path;
+	std::string lower = path;
+	std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+	const bool is_image = lower.ends_with(".png") || lower.ends_with(".jpg") || lower.ends_with(".jpeg") || lower.ends_with(".exr");
+	if (!is_image || !session.scene)
+	{
+		session.requests.open = path;
+		return;
+	}
+	// A height map: on the material that was picked last, or on all; as deep as a fiftieth of the scene.
+	const double factor = boundingRadius(session.scene->subject.scene) / 50;
+	std::string displacement = fmt::format("{}:{:.3g}", path, factor);
+	if (session.inspection && session.inspection->covered)
+		displacement += fmt::format(":0:{}", session.inspection->material_name);
+	session.options.displacements.push_back(displacement);
 }
 
 }  // namespace tessera::view

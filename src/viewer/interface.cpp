@@ -66,7 +66,7 @@ void drawMenu(Ui& ui, Session& session)
 // Which panels are open: a click shows one alone, with Ctrl one more.
 void drawPanelButtons(Ui& ui, Session& session)
 {
-	if (!ImGui::BeginTable("panels", 4))
+	if (!ImGui::BeginTable("panels", 3))
 		return;
 	for (const Panel& panel : panels())
 	{

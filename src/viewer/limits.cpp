@@ -45,7 +45,7 @@ std::string coarseningWarning(const FrameResult& result)
 		return {};
 	std::string lists;
 	for (const ListStats& list : result.lists)
-		if (list.peak > list.capacity)
+		if (list.peak > list.capacity && list.name != "batches")  // which follow from parts
 			lists += fmt::format("{}{}", lists.empty() ? "" : ", ", list.name);
 	const std::string granted = result.every_factor_one ? "every factor is 1" : fmt::format("{:.4g} px granted", result.rate_granted);
 	return fmt::format("Coarser than asked for: {:.4g} px wanted, {}{}{}", result.rate_wanted, granted, lists.empty() ? "" : "; too small: ", lists);

@@ -96,6 +96,7 @@ struct Session
 	std::string typed_path;
 	uvec2 viewport_low = { 0, 0 }, viewport_size = { 1, 1 };  // of the picture, in pixels of the window
 	const SceneLoader* loader = nullptr;
+	std::vector<std::string> devices;  // of the system
 	const Device* device = nullptr;
 	Requests requests;
 

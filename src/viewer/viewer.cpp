@@ -1,8 +1,10 @@
 #include "viewer/viewer.h"
 
 #include "app/option_text.h"
+#include "app/stats_json.h"
 #include "base/log.h"
 #include "viewer/interface.h"
+#include "viewer/settings.h"
 
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_vulkan.h>
@@ -36,6 +38,10 @@ Status Viewer::openDevice()
 	logInfo("device {}, driver {}", device_->name, device_->driver);
 	TRY_ASSIGN(presenter_, Presenter::create(*device_, *window_, session_.vsync));
 	session_.device = device_.get();
+	if (session_.devices.empty())
+	{
+		TRY_ASSIGN(session_.devices, listDevices());
+	}
 	session_.can_switch_vsync = presenter_->canSwitchVsync();
 	applied_ = session_.options;
 	return {};
@@ -53,7 +59,14 @@ void Viewer::closeDevice()
 
 Status Viewer::run()
 {
-	TRY_ASSIGN(window_, Window::create(line_.options.width_px, line_.options.height_px, false));
+	uvec2 size = { line_.options.width_px, line_.options.height_px };
+	std::filesystem::path settings = line_.settings == "off" ? std::string() : line_.settings;
+	if (line_.settings.empty())
+		settings = settingsFile();
+	const uvec2 kept = settings.empty() ? uvec2(0) : applySettings(readSettings(settings), session_);
+	if (kept.x > 0 && !line_.has_size)
+		size = kept;
+	TRY_ASSIGN(window_, Window::create(size.x, size.y, false));
 	startInterface(window_->contentScale());
 	load(line_.scene.empty() ? std::string("builtin:planet") : line_.scene, false);
 	Status status = openDevice();
@@ -62,6 +75,8 @@ Status Viewer::run()
 	const uint32_t messages = device_ ? device_->validationMessages() : 0;
 	if (status && !line_.ui_state.empty())
 		status = writeState();
+	if (status && !settings.empty() && window_->sizePx().x > 0)
+		status = writeJson(settings, settingsJson(session_, window_->sizePx()));
 	closeDevice();
 	endInterface();
 	setLogListener({});
@@ -94,6 +109,8 @@ Status Viewer::turn()
 		window_->close();
 		return {};
 	}
+	if (wants_device_)
+		TRY(changeDevice());
 	takeScene();
 	takeShaders();
 	beginScene();

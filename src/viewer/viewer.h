@@ -28,10 +28,12 @@ private:
 
 	Status openDevice();
 	void closeDevice();
-	Status turn();         // one turn of the loop
-	void takeScene();      // from the loader, between two frames
-	Status pollScene();    // takes the result of the frame that is drawn, when there is one
-	void beginScene();     // begins the next frame
+	Status turn();       // one turn of the loop
+	void takeScene();    // from the loader, between two frames
+	Status pollScene();  // takes the result of the frame that is drawn, when there is one
+	void beginScene();   // begins the next frame
+	void keepSceneOptions();
+	Status changeDevice();
 	bool followOptions();  // what changed since the last frame; false when it cannot be drawn so
 	Status drawWindow();   // the window's own frame
 	void doRequests();
@@ -67,6 +69,7 @@ private:
 	std::optional<uvec2> asked_pixel_, asked_centre_;   // of the frame that is drawn
 	ShownFrame running_;                                // the frame that is drawn
 	bool is_running_ = false, has_picture_ = false;     // a picture waits for the window
+	bool wants_device_ = false;                         // another one, before the next frame
 	bool has_failed_ = false;                           // the last frame could not be drawn: waits for other options
 	uint64_t begun_ = 0, written_ = 0, screenshots_ = 0;
 	Clock::time_point started_ = Clock::now();

@@ -3,6 +3,7 @@
 #include "base/log.h"
 #include "pipeline/passes.h"
 #include "viewer/camera_control.h"
+#include "viewer/option_text_form.h"
 #include "viewer/viewer.h"
 
 #include <cstring>
@@ -22,7 +23,10 @@ void Viewer::takeScene()
 	if (auto loaded = loader_.take())
 	{
 		if (!*loaded)
+		{
 			report(loaded->error());
+			keepSceneOptions();
+		}
 		else
 			next_scene_ = std::move(**loaded);
 	}
@@ -52,6 +56,44 @@ void Viewer::takeScene()
 	window_->setTitle("tessera: " + session_.scene_name);
 }
 
+// A scene could not be had with these options: those that made it stay those of the scene that is there.
+void Viewer::keepSceneOptions()
+{
+	if (!session_.scene)
+		return;
+	for (const OptionDesc& option : optionTable())
+		if (option.rebuild == Rebuild::Scene || option.name == "table")
+		{
+			auto kept = withOption(option, printOption(option, session_.scene->request.options), session_.options);
+			if (kept)
+				session_.options = std::move(*kept);
+			auto applied = withOption(option, printOption(option, session_.scene->request.options), applied_);
+			if (applied)
+				applied_ = std::move(*applied);
+		}
+}
+
+// Another device: everything on the old one is let go of, the scene stays.
+Status Viewer::changeDevice()
+{
+	wants_device_ = false;
+	const std::string before = applied_.device;
+	closeDevice();
+	Status opened = openDevice();
+	if (!opened)
+	{
+		report(opened.error());
+		closeDevice();
+		session_.options.device = before;
+		opened = openDevice();
+	}
+	TRY(opened);
+	next_scene_ = session_.scene;
+	if (next_scene_)
+		next_scene_->request.keeps_camera = true;
+	return {};
+}
+
 bool Viewer::followOptions()
 {
 	session_.options.width_px = session_.viewport_size.x;
@@ -62,6 +104,11 @@ bool Viewer::followOptions()
 		return !has_failed_;
 	if (const Status waited = presenter_->wait(); !waited)
 		return report(waited.error()), false;
+	if (stale == Rebuild::Device)
+	{
+		wants_device_ = true;
+		return false;
+	}
 	const bool needs_scene = stale >= Rebuild::Scene || applied_.table != session_.options.table;
 	if (const Status set = renderer_->setOptions(session_.options); !set)
 	{

@@ -65,6 +65,7 @@ const std::vector<std::pair<std::string, std::string>> kSamples = {
 	{ "near", "0.001" },
 	{ "ortho", "2.5" },
 	{ "camera-path", "path.json" },
+	{ "wireframe", "" },
 	{ "camera", "3" },
 	{ "grid", "4x3" },
 	{ "grid-u", "-2,0,0" },

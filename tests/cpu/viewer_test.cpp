@@ -1,13 +1,17 @@
 // What of the viewer is pure: cameras, command lines, panels, limits, histories, completion.
 #include "app/camera_path.h"
 #include "app/scene_load.h"
+#include "gpu/spirv_constants.h"
 #include "scene/build.h"
 #include "viewer/camera_control.h"
 #include "viewer/completion.h"
+#include "viewer/gizmos.h"
 #include "viewer/history.h"
 #include "viewer/limits.h"
 #include "viewer/option_text_form.h"
 #include "viewer/panels/panels.h"
+#include "viewer/settings.h"
+#include "viewer/shader_compiler.h"
 
 #include <gtest/gtest.h>
 
@@ -342,6 +346,120 @@ TEST(completion, goesOnAsFarAsItIsCertain)
 	EXPECT_EQ(completePath("built", suffixes, { "builtin:planet", "builtin:cube" }).text, "builtin:");
 	EXPECT_TRUE(completePath(base + "no/such/folder", suffixes).files.empty());
 	fs::remove_all(folder);
+}
+
+TEST(gizmos, linesAreCutAtTheNearDistance)
+{
+	const uvec2 size = { 400, 300 };
+	const Camera camera = someCamera();
+	const dvec3 forward = glm::normalize(camera.target - camera.eye);
+	const dvec3 before = camera.eye + forward * 2.0, behind = camera.eye - forward * 2.0 + dvec3(0.3, 0.1, 0);
+	EXPECT_FALSE(pixelLine(camera, behind, behind + dvec3(1, 0, 0), 0.01, size).has_value());
+	const auto whole = pixelLine(camera, before, before + dvec3(0.1, 0, 0), 0.01, size);
+	ASSERT_TRUE(whole.has_value());
+	EXPECT_NEAR(whole->from.x, 200, 1e-9);
+	EXPECT_NEAR(whole->from.y, 150, 1e-9);
+	for (bool turned_round : { false, true })
+	{
+		const auto cut = turned_round ? pixelLine(camera, behind, before, 0.01, size) : pixelLine(camera, before, behind, 0.01, size);
+		ASSERT_TRUE(cut.has_value());
+		const double depth = glm::dot(behind - camera.eye, forward);
+		const dvec3 end = glm::mix(before, behind, (2 - 0.01) / (2 - depth));  // where the line meets the near plane
+		EXPECT_NEAR(glm::length((turned_round ? cut->from : cut->to) - dvec2(pixelOf(camera, end, size))), 0, 1e-3);
+		EXPECT_TRUE(std::isfinite(cut->to.x) && std::isfinite(cut->from.x));
+	}
+}
+
+TEST(gizmos, frustumCornersLieOnTheCornersOfThePicture)
+{
+	const uvec2 size = { 400, 200 };
+	for (bool orthographic : { false, true })
+	{
+		Camera camera = someCamera();
+		camera.orthographic = orthographic;
+		const auto corners = frustumCorners(camera, 0.5, 7, 2);
+		for (size_t i = 0; i < corners.size(); ++i)
+		{
+			const dvec3 pixel = pixelOf(camera, corners[i], size);
+			EXPECT_NEAR(pixel.x, i & 1 ? 400 : 0, 1e-6);
+			EXPECT_NEAR(pixel.y, i & 2 ? 0 : 200, 1e-6);
+			EXPECT_NEAR(pixel.z, i & 4 ? 7 : 0.5, 1e-9);
+		}
+	}
+}
+
+TEST(settings, areReadBackAndWhatIsWrongIsLeftAlone)
+{
+	Session session;
+	session.vsync = false;
+	session.typed_path = "a/b.gltf";
+	session.gizmos.cones = true;
+	session.open_panels = { { "Plan", true }, { "Log", false }, { "Raster", true } };
+	const auto json = settingsJson(session, { 900, 500 });
+	Session read;
+	EXPECT_EQ(applySettings(json, read), uvec2(900, 500));
+	EXPECT_EQ(settingsJson(read, { 900, 500 }), json);
+	EXPECT_TRUE(read.open_panels["Plan"] && read.open_panels["Raster"]);
+	EXPECT_FALSE(read.open_panels["Log"]);
+	for (const char* text : { "null", "[]", "{}", R"({"window": [1, 2]})", R"({"window": [-900, 500]})", R"({"window": "big"})",
+							  R"({"vsync": 3, "panels": 7, "gizmos": []})", R"({"panels": ["no such panel"]})" })
+	{
+		Session untouched;
+		EXPECT_EQ(applySettings(nlohmann::ordered_json::parse(text), untouched), uvec2(0)) << text;
+		EXPECT_TRUE(untouched.vsync);
+		for (const auto& [name, open] : untouched.open_panels)
+			EXPECT_FALSE(open) << text;
+	}
+}
+
+TEST(shaderReload, givesTheSameCodeAsTheBuildAndFindsErrors)
+{
+	const std::filesystem::path sources = TESSERA_SOURCE_ROOT "/shaders";
+	for (const char* name : { "shading/shade.comp", "culling/cluster_cull.comp", "raster/draw_batches.mesh", "raster/draw_indexed.frag" })
+	{
+		const auto compiled = compileShader(sources, name);
+		ASSERT_TRUE(compiled.has_value()) << compiled.error().message;
+		const auto built = loadShader(name);
+		ASSERT_TRUE(built.has_value()) << built.error().message;
+		EXPECT_EQ(compiled->stage, built->stage);
+		EXPECT_EQ(compiled->words == built->words, true) << name << ": pipelines would be replaced without need";
+	}
+	const auto folder = std::filesystem::temp_directory_path() / ("tessera_shader_" + std::to_string(std::rand()));
+	std::filesystem::create_directories(folder / "room");
+	std::ofstream(folder / "room/wrong.comp") << "#version 460\nlayout(local_size_x = 1) in;\nvoid main() { nonsense; }\n";
+	const auto wrong = compileShader(folder, "room/wrong.comp");
+	ASSERT_FALSE(wrong.has_value());
+	EXPECT_NE(wrong.error().message.find("room/wrong.comp:3"), std::string::npos) << wrong.error().message;
+	EXPECT_FALSE(compileShader(folder, "room/missing.comp").has_value());
+	std::filesystem::remove_all(folder);
+}
+
+TEST(shaderReload, noticesThatASourceHasChanged)
+{
+	const auto folder = std::filesystem::temp_directory_path() / ("tessera_watch_" + std::to_string(std::rand()));
+	std::filesystem::create_directories(folder / "room");
+	std::ofstream(folder / "room/a.comp") << "1";
+	ShaderReloader reloader(folder);
+	EXPECT_FALSE(reloader.sourcesChanged(0)) << "the first look only remembers";
+	EXPECT_FALSE(reloader.sourcesChanged(2));
+	std::filesystem::last_write_time(folder / "room/a.comp", std::filesystem::file_time_type::clock::now() + std::chrono::seconds(5));
+	EXPECT_FALSE(reloader.sourcesChanged(2.5)) << "looks at most once a second";
+	EXPECT_TRUE(reloader.sourcesChanged(4));
+	EXPECT_FALSE(reloader.sourcesChanged(6));
+	std::filesystem::remove_all(folder);
+}
+
+TEST(usedConstants, areThoseThatTheCodeRefersTo)
+{
+	const auto shade = loadShader("shading/shade.comp"), begin = loadShader("culling/frame_begin.comp");
+	ASSERT_TRUE(shade.has_value() && begin.has_value());
+	const std::set<uint32_t> used = usedConstants(shade->words);
+	EXPECT_TRUE(used.count(11)) << "IS_SHADED_VIEW";
+	EXPECT_TRUE(used.count(14)) << "READS_BUFFER";
+	EXPECT_FALSE(used.count(12)) << "KEEPS_VERTICES belongs to the rasterisers";
+	EXPECT_TRUE(usedConstants(begin->words).empty());
+	EXPECT_TRUE(usedConstants({}).empty());
+	EXPECT_NO_FATAL_FAILURE(usedConstants(std::span(shade->words).first(shade->words.size() / 2)));
 }
 
 }  // namespace tessera::view

@@ -149,7 +149,7 @@ class Viewer:
         """Keeps a picture of the whole window when pictures are wanted."""
         if self.pictures:
             path = os.path.join(self.pictures, name + ".png")
-            self.run("import", "-window", "root", "-crop", "1280x720+0+0", "+repage", "-colors", "128", "-define", "png:compression-level=9", path)
+            self.run("import", "-window", "root", "-crop", "1280x720+0+0", "+repage", "+dither", "-colors", "64", "-define", "png:compression-level=9", path)
 
     def quit(self, timeout=60):
         self.keys("ctrl", "q")

@@ -4,6 +4,7 @@
 usage: viewer_script.py PROGRAM SOURCE_ROOT [PICTURES]     exit 77: a tool is missing
 """
 
+import json
 import os
 import shlex
 import shutil
@@ -68,10 +69,16 @@ def change_the_rate(viewer):
 
 
 def switch_views(viewer):
-    for view in ("parts", "factors", "wireframe", "clusters"):
+    for view in ("parts", "error", "area", "factors"):
         viewer.choose("view", view)
         viewer.wait("the view " + view, lambda s: s["frame"]["options"]["view"] == view)
         viewer.picture("04_view_" + view)
+    viewer.click("wireframe", 0.1)
+    viewer.wait("lines over the view", lambda s: s["frame"]["options"]["wireframe"])
+    viewer.picture("04_view_factors_wireframe")
+    viewer.click("wireframe", 0.1)
+    viewer.choose("view", "clusters")
+    viewer.wait("the view clusters", lambda s: s["frame"]["options"]["view"] == "clusters")
 
 
 def freeze_and_fly(viewer):
@@ -211,6 +218,17 @@ def same_picture_as_render(viewer, program, root, folder):
     viewer.settled()
 
 
+def start_again(program, folder, settings, display):
+    """Draws three frames and ends by itself; gives what it reported then."""
+    file = os.path.join(folder, "again.json")
+    subprocess.run([program, "view", "builtin:quad", "--frames", "3", "--ui-state", file, "--settings", settings, "--quiet"], check=True, timeout=120,
+                   env=dict(os.environ, DISPLAY=display.name))
+    with open(file) as state:
+        state = json.load(state)
+    assert state["frame"]["number"] == 3
+    return state
+
+
 def main():
     if missing_tools():
         print("skipped, not installed: " + ", ".join(missing_tools()))
@@ -222,9 +240,10 @@ def main():
     folder = tempfile.mkdtemp(prefix="tessera_viewer_")
     shaders = os.path.join(folder, "shaders")
     shutil.copytree(os.path.join(root, "shaders"), shaders)
+    settings = os.path.join(folder, "settings.json")
     display, viewer = Display(), None
     try:
-        viewer = Viewer(program, ["--rate", "8", "--validate", "--shaders", shaders], folder, display, pictures)
+        viewer = Viewer(program, ["--rate", "8", "--validate", "--shaders", shaders, "--settings", settings], folder, display, pictures)
         steps = [
             (start_without_argument,), (open_the_sphere, root), (change_the_rate,), (switch_views,), (freeze_and_fly,), (overflow_a_list,),
             (pick_a_triangle,), (reload_a_broken_shader, shaders), (open_a_broken_file, folder), (resize,),
@@ -240,6 +259,8 @@ def main():
         code = viewer.quit()
         assert code == 0, "exit code %s\n%s" % (code, viewer.log())
         assert "validation" not in viewer.log(), viewer.log()
+        again = start_again(program, folder, settings, display)
+        assert again["open_panels"] == state["open_panels"], "which panels are open is kept"
     finally:
         if viewer:
             viewer.stop()

@@ -30,7 +30,7 @@ static void record(PassContext& pass)
 	args.shading = pass.address("shading");
 	args.picture = pass.address("picture");
 	args.counts = pass.address("counts");
-	args.view_mode = static_cast<uint32_t>(pass.input().options.view);
+	args.view_mode = static_cast<uint32_t>(pass.input().options.view) | (pass.input().options.wireframe ? VIEW_WITH_WIREFRAME : 0);
 	args.visibility = pass.address("visibility_buffer");
 	args.rounds = pass.round() | pass.input().view.rounds << 16;
 	pass.dispatch(args, (pass.input().options.width_px + kTilePx - 1) / kTilePx, (pass.input().options.height_px + kTilePx - 1) / kTilePx);

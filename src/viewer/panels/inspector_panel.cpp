@@ -29,10 +29,11 @@ void drawFacts(const Inspection& found)
 	valueRow("config, micro-triangle", fmt::format("{}, {}", found.config, found.micro));
 	valueRow("depth", fmt::format("{:.6g}", found.depth_world));
 	if (found.is_part)
+	{
 		valueRow("batch", fmt::format("{}: {} parts", found.batch, found.batch_parts));
-	if (found.is_part)
-		valueRow("its occupancy", fmt::format("{} of {} vertices, {} of {} triangles", found.batch_vertices, found.most_batch_vertices,
-											  found.batch_triangles, found.most_batch_triangles));
+		valueRow("its vertices", fmt::format("{} of {}", found.batch_vertices, found.most_batch_vertices));
+		valueRow("its triangles", fmt::format("{} of {}", found.batch_triangles, found.most_batch_triangles));
+	}
 	ImGui::EndTable();
 }
 

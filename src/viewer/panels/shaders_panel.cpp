@@ -1,4 +1,5 @@
 // Shaders, compiled again while the program runs.
+#include "app/option_text.h"
 #include "viewer/panels/panels.h"
 
 namespace tessera::view
@@ -16,7 +17,7 @@ void draw(Ui& ui, Session& session)
 	if (shaders.is_compiling)
 		ImGui::TextUnformatted("compiling ...");
 	else if (shaders.reloads > 0 && shaders.error.empty())
-		ImGui::Text("%zu shaders replaced by the last reload", shaders.replaced);
+		ImGui::Text("%s replaced by the last reload", counted(shaders.replaced, "shader").c_str());
 	if (shaders.error.empty())
 		return;
 	ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.45f, 0.35f, 1));

@@ -7,12 +7,19 @@ namespace tessera::view
 namespace
 {
 
-constexpr std::string_view kOptions[] = { "view", "shading" };
+constexpr std::string_view kOptions[] = { "view", "wireframe", "shading" };
 
 void draw(Ui& ui, Session& session)
 {
 	ui.option("view", session.options);
+	ui.option("wireframe", session.options);
 	ui.option("shading", session.options);
+	const ViewMode view = session.options.view;
+	const char* scale = view == ViewMode::Factors ? "1 (blue) to 11 (red) segments"
+						: view == ViewMode::Area  ? "1/16 (blue) to 256 (red) square pixels, logarithmic"
+						: view == ViewMode::Error ? "1/64 (blue) to 16 (red) pixels from a surface at an eighth of the rate, logarithmic"
+												  : "";
+	ImGui::TextWrapped("%s", scale);
 }
 
 }  // namespace
