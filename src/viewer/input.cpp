@@ -26,7 +26,7 @@ constexpr std::string_view kHelp[] = {
 	"Ctrl + left drag: look around",
 	"wheel: nearer, farther",
 	"W A S D, E C: fly, up, down",
-	"F: frame the scene",
+	"F: frame what was picked, or the scene",
 	"Home: back to the first view",
 	"+ -: tessellation rate",
 	"Ctrl+O: open a scene",

@@ -79,7 +79,6 @@ Status Viewer::run()
 		status = writeJson(settings, settingsJson(session_, window_->sizePx()));
 	closeDevice();
 	endInterface();
-	setLogListener({});
 	window_.reset();
 	TRY(status);
 	if (messages > 0)
@@ -90,7 +89,8 @@ Status Viewer::run()
 Status Viewer::turn()
 {
 	const bool idles = window_->sizePx().x == 0;
-	const WindowEvents events = window_->poll(idles ? kIdlePeriod_s : is_running_ ? kPollPeriod_s : 0);
+	const bool draws_nothing = !renderer_ || has_failed_;
+	const WindowEvents events = window_->poll(idles ? kIdlePeriod_s : is_running_ ? kPollPeriod_s : draws_nothing ? kWindowPeriod_s : 0);
 	const double time = now();
 	input_.apply(events, *window_, time - last_turn_s_, session_);
 	movePath(time - last_turn_s_);
@@ -98,7 +98,8 @@ Status Viewer::turn()
 	takeLog();
 	TRY(pollScene());
 	// The window is drawn for every picture; and while there is none for a while, for what the user does.
-	if (has_picture_ || !is_running_ || time - last_window_s_ >= kWindowPeriod_s)
+	has_news_ |= events.any || loader_.isLoading();
+	if (has_picture_ || !is_running_ || (has_news_ && time - last_window_s_ >= kWindowPeriod_s))
 		TRY(drawWindow());
 	session_.requests.reload_shaders |= reloader_.sourcesChanged(time);
 	doRequests();
@@ -126,6 +127,7 @@ Status Viewer::drawWindow()
 		return {};
 	}
 	last_window_s_ = now();
+	has_news_ = false;
 	if (has_picture_)
 	{
 		session_.shown = running_;

@@ -40,6 +40,7 @@ private:
 	void load(const std::string& scene, bool keeps_camera);
 	void takeScreenshot();
 	void copyCommand();
+	void frameSelection();
 	void loadPath(const std::string& file);
 	void movePath(double elapsed_s);  // plays or records
 	void reloadShaders();
@@ -69,6 +70,7 @@ private:
 	std::optional<uvec2> asked_pixel_, asked_centre_;   // of the frame that is drawn
 	ShownFrame running_;                                // the frame that is drawn
 	bool is_running_ = false, has_picture_ = false;     // a picture waits for the window
+	bool has_news_ = false;                             // for the window's next frame, beside a picture
 	bool wants_device_ = false;                         // another one, before the next frame
 	bool has_failed_ = false;                           // the last frame could not be drawn: waits for other options
 	uint64_t begun_ = 0, written_ = 0, screenshots_ = 0;

@@ -52,8 +52,7 @@ void Viewer::doRequests()
 	if (requests.file_camera)
 		session_.camera = cameraOf(subject.scene.cameras[*requests.file_camera], subject.scene);
 	if (requests.frame_selection)
-		session_.camera = framing(session_.camera, (subject.scene.world_low + subject.scene.world_high) / 2.0, radiusOf(subject.scene),
-								  double(session_.viewport_size.x) / session_.viewport_size.y);
+		frameSelection();
 	if (requests.save_path && !session_.path.keys.empty())
 		if (const Status written = writeFile(session_.path_file, cameraPathText(session_.path)); !written)
 			report(written.error());
@@ -69,6 +68,25 @@ void Viewer::doRequests()
 		takeScreenshot();
 	else
 		session_.requests.screenshot |= requests.screenshot;
+}
+
+// The instance that was picked last, or the whole scene.
+void Viewer::frameSelection()
+{
+	const BuiltScene& scene = session_.scene->subject.scene;
+	dvec3 centre = (scene.world_low + scene.world_high) / 2.0;
+	double radius = radiusOf(scene);
+	if (session_.inspection && session_.inspection->covered)
+	{
+		const Instance& instance = scene.instances[session_.inspection->cluster.instance];
+		const Box box = displacedBox(scene.mesh_bounds[instance.mesh], session_.options.displacement_scale);
+		centre = dvec3(instance.world * dvec4(dvec3(box.low + box.high) / 2.0, 1));
+		const dvec3 half = dvec3(box.high - box.low) / 2.0;
+		radius = glm::length(dvec3(instance.world[0])) * half.x + glm::length(dvec3(instance.world[1])) * half.y +
+				 glm::length(dvec3(instance.world[2])) * half.z;
+		radius = std::max(radius, radiusOf(scene) * 1e-6);
+	}
+	session_.camera = framing(session_.camera, centre, radius, double(session_.viewport_size.x) / session_.viewport_size.y);
 }
 
 void Viewer::reloadShaders()

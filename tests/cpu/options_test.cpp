@@ -183,11 +183,11 @@ TEST(options, theJsonIsWhatTheStatsPromise)
 TEST(options, viewsAreInTheOrderOfViewMode)
 {
 	const Choice& views = std::get<Choice>(findOption("view")->field);
-	ASSERT_EQ(views.names.size(), static_cast<size_t>(ViewMode::Materials) + 1);
+	ASSERT_EQ(views.names.size(), static_cast<size_t>(ViewMode::Error) + 1);
 	EXPECT_EQ(views.names[static_cast<size_t>(ViewMode::Shaded)], "shaded");
 	EXPECT_EQ(views.names[static_cast<size_t>(ViewMode::Depth)], "depth");
 	EXPECT_EQ(views.names[static_cast<size_t>(ViewMode::Wireframe)], "wireframe");
-	EXPECT_EQ(views.names[static_cast<size_t>(ViewMode::Materials)], "materials");
+	EXPECT_EQ(views.names[static_cast<size_t>(ViewMode::Error)], "error");
 }
 
 TEST(options, theLastOfAnOptionCountsAndRepeatableOnesGather)
