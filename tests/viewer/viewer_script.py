@@ -86,7 +86,7 @@ def freeze_and_fly(viewer):
     viewer.wait("the panel Raster", lambda s: "debug_camera" in s["widgets"])
     x, y = middle(viewer.state())
     viewer.tool("mousemove", x, y)
-    viewer.tool("click", "--repeat", 8, "--delay", 120, 4)  # the wheel, nearer: the frustum now cuts through the sphere
+    viewer.tool("click", "--repeat", 13, "--delay", 120, 4)  # the wheel, nearer: the frustum now cuts through the sphere
     near = viewer.settled()
     assert near["frame"]["visible_clusters"] < 320, "what is beyond the frustum is culled"
     viewer.click("debug_camera")
@@ -98,7 +98,7 @@ def freeze_and_fly(viewer):
     seen = state["frame"]["drawn_from"]
     viewer.drag((x - 100, y), (x + 160, y + 60))
     viewer.tool("mousemove", x, y)
-    viewer.tool("click", "--repeat", 12, "--delay", 120, 5)  # the wheel, away
+    viewer.tool("click", "--repeat", 19, "--delay", 120, 5)  # the wheel, away
     state = viewer.settled()
     assert state["frame"]["drawn_from"] != seen, "the picture's camera moves"
     assert state["frame"]["camera"] == seen, "what is culled for stays"
