@@ -92,6 +92,8 @@ struct HostLayout
 #define FIELDS_12(T, a, ...) FIELD(T, a), FIELDS_11(T, __VA_ARGS__)
 #define FIELDS_13(T, a, ...) FIELD(T, a), FIELDS_12(T, __VA_ARGS__)
 #define FIELDS_14(T, a, ...) FIELD(T, a), FIELDS_13(T, __VA_ARGS__)
+#define FIELDS_15(T, a, ...) FIELD(T, a), FIELDS_14(T, __VA_ARGS__)
+#define FIELDS_16(T, a, ...) FIELD(T, a), FIELDS_15(T, __VA_ARGS__)
 #define LAYOUT(count, T, ...)              \
 	HostLayout                             \
 	{                                      \
