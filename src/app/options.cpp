@@ -231,7 +231,10 @@ const std::array kTable = {
 	OptionDesc{ "max-error-px", "PIXELS",
 				"render: take the coarsest rate whose largest error seen is at most this; report: recommend the cheapest such setting",
 				&AppOptions::max_error_px, 0, 1e6 },
-	OptionDesc{ "max-ms", "MS", "report: recommend the most exact setting that takes at most this", &AppOptions::max_ms, 0, 1e6 },
+	OptionDesc{ "max-ms", "MS",
+				"render: keep each frame's GPU time at or below this at the finest rate that does; report: recommend the most exact setting that "
+				"takes at most this",
+				&AppOptions::max_ms, 1e-3, 1e6 },
 	OptionDesc{ "resume", "", "report: go on with an interrupted one; runs that are there are not done again", &AppOptions::resume },
 	OptionDesc{ "device", "NAME|N", "part of a device's name, or its number; default: the fastest kind there is", &AppOptions::device, 0, 0,
 				Rebuild::Device },

@@ -1,5 +1,6 @@
 #include "app/camera_path.h"
 #include "app/commands.h"
+#include "app/frame_budget.h"
 #include "app/option_text.h"
 #include "app/rate_for_error.h"
 #include "app/scene_load.h"
@@ -65,18 +66,30 @@ std::string numbered(const std::string& path, uint32_t index)
 	return fmt::format("{}{:0{}}{}", path.substr(0, first), index, end - first, path.substr(end));
 }
 
-// Draws --warmup frames from the path's start and --frames spread over it evenly, both ends included. Pictures of those before the last are written
-// when `picture_path` tells them apart.
-Result<FrameSeries> drawFrames(Renderer& renderer, const Camera& camera, const AppOptions& options, const std::string& picture_path)
+void tellBudget(const BudgetOutcome& outcome)
+{
+	logInfo("--max-ms {:.4g}: {:.4g} pixels per segment at the end, after {} to find the first rate", outcome.budget_ms, outcome.rate_px,
+			counted(outcome.settling_frames, "frame"));
+	if (outcome.over_tenth > 0 || !outcome.settled)
+		logWarning("--max-ms {:.4g}: {} of {} took over a tenth more, the longest {:.4g} ms{}", outcome.budget_ms, outcome.over_tenth,
+				   counted(outcome.frames, "frame"), outcome.longest_ms, outcome.settled ? "" : "; the rate did not come to rest before them");
+}
+
+// Draws --warmup frames from the path's start (and with `budget` more, until the rate rests) and --frames spread over it evenly, both ends
+// included. Pictures of those before the last are written when `picture_path` tells them apart.
+Result<FrameSeries> drawFrames(Renderer& renderer, const Camera& camera, const AppOptions& options, FrameBudget* budget,
+							   const std::string& picture_path)
 {
 	TRY_ASSIGN(const CameraPath path, pathOf(camera, options));
 	FrameSeries series;
 	for (uint32_t i = 0; i < options.warmup; ++i)
 		TRY(renderer.renderFrame(path.at(0)));
+	if (budget)
+		TRY(budget->settle(path.at(0)));
 	for (uint32_t i = 0; i < options.frames; ++i)
 	{
 		const double time = options.frames > 1 ? path.duration_s() * i / (options.frames - 1) : 0;
-		TRY_ASSIGN(const FrameResult result, renderer.renderFrame(path.at(time)));
+		TRY_ASSIGN(const FrameResult result, budget ? budget->drawFrame(path.at(time)) : renderer.renderFrame(path.at(time)));
 		series.add(result);
 		if (i + 1 < options.frames && picture_path.find('#') != std::string::npos)
 		{
@@ -88,6 +101,8 @@ Result<FrameSeries> drawFrames(Renderer& renderer, const Camera& camera, const A
 	logInfo("drew {}: {} of {} and {}, {:.3f} ms on the device", counted(options.frames, "frame"),
 			counted(last.counts.micro_triangles, "micro-triangle"), counted(last.counts.part_triangles, "part triangle"),
 			counted(last.counts.full_clusters, "full cluster"), series.frame.median());
+	if (budget)
+		tellBudget(budget->outcome());
 	if (last.rounds > 1)
 		logInfo("the frame was drawn in {} rounds: clusters exceed a list ({})", last.rounds, tightLists(last));
 	if (isCoarsened(last) && options.strict)
@@ -97,6 +112,16 @@ Result<FrameSeries> drawFrames(Renderer& renderer, const Camera& camera, const A
 	return series;
 }
 
+nlohmann::ordered_json budgetJson(const BudgetOutcome& outcome)
+{
+	return { { "max_ms", outcome.budget_ms },
+			 { "rate", outcome.rate_px },
+			 { "settled", outcome.settled },
+			 { "settling_frames", outcome.settling_frames },
+			 { "longest_frame_ms", outcome.longest_ms },
+			 { "frames_over_a_tenth_more", outcome.over_tenth } };
+}
+
 // Everything that needs the renderer, so that it is gone, and validated, when this returns.
 // `found`: how the rate was found, when it was.
 Status drawAndWrite(const CommandLine& line, const AppOptions& options, const std::optional<FoundRate>& found, const std::string& picture_path,
@@ -104,7 +129,10 @@ Status drawAndWrite(const CommandLine& line, const AppOptions& options, const st
 {
 	TRY_ASSIGN(const std::unique_ptr<Renderer> renderer, Renderer::create(device, subject.scene, subject.table, framePasses(), options));
 	logInfo("drawing {}x{} at {} pixels per segment", options.width_px, options.height_px, options.rate);
-	TRY_ASSIGN(const FrameSeries series, drawFrames(*renderer, subject.camera, options, picture_path));
+	std::optional<FrameBudget> budget;
+	if (options.max_ms)
+		budget.emplace(*renderer, *options.max_ms, options.rate);
+	TRY_ASSIGN(const FrameSeries series, drawFrames(*renderer, subject.camera, options, budget ? &*budget : nullptr, picture_path));
 	TRY_ASSIGN(const std::vector<uint8_t> picture, renderer->readPicture());
 	const std::string last_path = numbered(picture_path, options.frames - 1);
 	TRY(writePng(last_path, options.width_px, options.height_px, picture, 4));
@@ -119,6 +147,8 @@ Status drawAndWrite(const CommandLine& line, const AppOptions& options, const st
 						   { "seen_rms_px", found->seen.px.rms },
 						   { "samples", found->seen.samples },
 						   { "rates_tried", found->tried } };
+	if (budget)
+		stats["budget"] = budgetJson(budget->outcome());
 	TRY(writeJson(line.stats, stats));
 	if (line.stats != "-")
 		logInfo("wrote {}", line.stats);
@@ -135,6 +165,12 @@ Status renderCommand(const CommandLine& line)
 			   Device::create({ line.options.device, line.options.validate, line.options.pipeline_statistics }));
 	logInfo("device {}, driver {}", device->name, device->driver);
 	AppOptions options = line.options;
+	if (options.max_ms && options.max_error_px)
+		return fail(ExitCode::Usage, "--max-ms and --max-error-px: each finds the rate, give one of them");
+	if (options.max_ms && device->limits.timestamp_ns == 0)
+		return fail(ExitCode::DeviceCannot, "--max-ms: {} has no timers", device->name);
+	if (options.max_ms)
+		static_cast<RenderOptions&>(options) = budgetOptions(options, subject.scene, *device);
 	std::optional<FoundRate> found;
 	if (options.max_error_px)
 	{

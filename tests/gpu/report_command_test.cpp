@@ -120,4 +120,24 @@ TEST_F(reportCommand, renderHoldsTheErrorThatIsAskedFor)
 	EXPECT_NE(never.errors.find("not held"), std::string::npos) << never.errors;
 }
 
+TEST_F(reportCommand, renderGoesAsFarAsATimeBudgetAsksFor)
+{
+	// Times cannot be told before, but that nothing is that quick can: every frame is coarsened, down to the coarsest rate there is.
+	const ProgramRun run = runTessera("render builtin:quad --size 48x32 --rate 8 --max-ms 0.001 --frames 5 --stats -");
+	ASSERT_EQ(run.exit_code, 0) << run.errors;
+	const json stats = json::parse(run.output, nullptr, false);
+	ASSERT_TRUE(stats.is_object());
+	const json& budget = stats["budget"];
+	EXPECT_EQ(budget["rate"], 256);
+	EXPECT_EQ(budget["frames_over_a_tenth_more"], 5);
+	EXPECT_GT(budget["settling_frames"], 3);
+	EXPECT_FLOAT_EQ(stats["frame"]["rate_wanted"], 256);
+	EXPECT_NE(run.errors.find("over a tenth more"), std::string::npos) << run.errors;
+	// What any frame keeps lets the rate become as fine as it gets, here within a picture of a few pixels.
+	const ProgramRun roomy = runTessera("render builtin:quad --size 6x4 --rate 0.2 --max-ms 1e6 --stats - --quiet");
+	ASSERT_EQ(roomy.exit_code, 0) << roomy.errors;
+	EXPECT_EQ(json::parse(roomy.output, nullptr, false)["budget"]["rate"], 1.0 / 16);
+	EXPECT_EQ(runTessera("render builtin:quad --max-ms 1 --max-error-px 1 --quiet").exit_code, 2);
+}
+
 }  // namespace tessera::test
