@@ -42,6 +42,32 @@ void fillLists(const FrameResources& resources, FrameResult& result)
 	}
 }
 
+void growNearlyFull(FrameResources& resources, const PlanInput& input)
+{
+	for (const ListDesc& list : listDescs())
+	{
+		if (!growsOnDemand(list) || !resources.has(list.name))
+			continue;
+		const ListHead head = resources.head(list.index);
+		if (head.wanted <= head.capacity && uint64_t(head.wanted) * 10 > uint64_t(resources.capacity(list.name)) * 9)
+			resources.grow(list, head.wanted, input);
+	}
+}
+
+OverfullLists growOverfull(FrameResources& resources, const PlanInput& input)
+{
+	OverfullLists found;
+	for (const ListDesc& list : listDescs())
+	{
+		const ListHead head = resources.head(list.index);
+		if (head.wanted <= head.capacity)
+			continue;
+		found.grew |= resources.grow(list, head.wanted, input);
+		found.of_clusters |= list.index == LIST_CLUSTER_GROUPS || list.index == LIST_VISIBLE_CLUSTERS || list.index == LIST_FULL_CLUSTERS;
+	}
+	return found;
+}
+
 OcclusionOutcome occlusionOutcome(const FrameResult& result)
 {
 	const auto took = [&](std::string_view pass) {

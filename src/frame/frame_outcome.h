@@ -14,6 +14,17 @@ void addCounts(const FrameResources& resources, FrameCountsRead& sum);
 // Wanted, capacity and peaks of every list there is.
 void fillLists(const FrameResources& resources, FrameResult& result);
 
+// Packings that the last frame nearly filled grow before they are too small, so that a moving camera seldom draws a frame twice.
+void growNearlyFull(FrameResources& resources, const PlanInput& input);
+
+// Lists of which more was wanted than they hold.
+struct OverfullLists
+{
+	bool grew = false;         // one of them holds enough now
+	bool of_clusters = false;  // one of them holds clusters: no rate helps
+};
+OverfullLists growOverfull(FrameResources& resources, const PlanInput& input);
+
 // What looking for hidden parts found in this frame, and what it took.
 OcclusionOutcome occlusionOutcome(const FrameResult& result);
 

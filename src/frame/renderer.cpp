@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "frame/frame_outcome.h"
+#include "frame/gate_check.h"
 #include "frame/rate_controller.h"
 #include "frame/rate_steps.h"
 #include "plan/conditions.h"
@@ -16,23 +17,6 @@ namespace tessera
 
 namespace
 {
-
-Status checkGates(const Device& device, const PlanInput& input)
-{
-	const RenderOptions& options = input.options;
-	const Raster raster = chosenRaster(input);
-	if (raster == Raster::Soft && !device.gates.buffer_atomics_64)
-		return fail(ExitCode::DeviceCannot, "--raster soft: {} lacks 64-bit buffer atomics; --raster mesh or indexed needs none", device.name);
-	if (raster == Raster::Mesh && !device.gates.mesh_shader)
-		return fail(ExitCode::DeviceCannot, "--raster mesh: {} lacks VK_EXT_mesh_shader; --raster indexed needs no mesh shaders", device.name);
-	if (raster == Raster::Indexed && !device.gates.fragment_primitive_id)
-		return fail(ExitCode::DeviceCannot, "--raster indexed: {} lacks primitive ids in fragment shaders (geometryShader) or 32-bit indices",
-					device.name);
-	if (options.width_px == 0 || options.height_px == 0 || std::max(options.width_px, options.height_px) > device.limits.max_image_extent)
-		return fail(ExitCode::Usage, "--size {}x{}: {} can draw from 1x1 to {}x{}", options.width_px, options.height_px, device.name,
-					device.limits.max_image_extent, device.limits.max_image_extent);
-	return {};
-}
 
 // Rounds are counted in 16 bits (shade.h).
 constexpr uint32_t kMostRounds = 0x8000;
@@ -81,7 +65,7 @@ public:
 		wanted_.insert(wanted_.end(), request.more_outputs.begin(), request.more_outputs.end());
 		after_round_ = request.after_round;
 		attempts_ = 0;
-		growAhead();
+		growNearlyFull(*resources_, input_);
 		return startAttempt();
 	}
 
@@ -296,18 +280,11 @@ private:
 			judgeLevels(counts);
 		if (counts.overflow == 0)
 			return;
-		bool clusters = false;
-		for (const ListDesc& list : listDescs())
-		{
-			const ListHead head = resources_->head(list.index);
-			if (head.wanted <= head.capacity)
-				continue;
-			grew_ |= resources_->grow(list, head.wanted, input_);
-			clusters |= list.index == LIST_CLUSTER_GROUPS || list.index == LIST_VISIBLE_CLUSTERS || list.index == LIST_FULL_CLUSTERS;
-		}
+		const OverfullLists overfull = growOverfull(*resources_, input_);
+		grew_ |= overfull.grew;
 		outcome_.fits = false;
 		// Without a rate that fits the lists are left overfull as they were; listed again they fit as they were counted.
-		outcome_.rate_can_help = counts.listed_again != 0 && !clusters;
+		outcome_.rate_can_help = counts.listed_again != 0 && !overfull.of_clusters;
 	}
 
 	// Did looking for what is hidden pay in this frame?
@@ -327,19 +304,6 @@ private:
 			return;
 		levels_needed_ = levels + 2;
 		grew_ |= levels == 0;
-	}
-
-	// Packings that the last frame nearly filled grow before they are too small, so that a moving camera seldom draws a frame twice.
-	void growAhead()
-	{
-		for (const ListDesc& list : listDescs())
-		{
-			if (!growsOnDemand(list) || !resources_->has(list.name))
-				continue;
-			const ListHead head = resources_->head(list.index);
-			if (head.wanted <= head.capacity && uint64_t(head.wanted) * 10 > uint64_t(resources_->capacity(list.name)) * 9)
-				resources_->grow(list, head.wanted, input_);
-		}
 	}
 
 	Device& device_;

@@ -3,6 +3,7 @@
 #include "frame/lists.h"
 #include "pipeline/passes.h"
 
+#include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -135,6 +136,32 @@ TEST_F(programWithDevice, infoPrintsDeviceSceneAndPlan)
 	EXPECT_NE(text.output.find("mesh_shader"), std::string::npos);
 	EXPECT_NE(text.output.find("passes left out"), std::string::npos);
 	EXPECT_NE(text.output.find("shade"), std::string::npos);
+}
+
+TEST_F(programWithDevice, aCameraPathGivesThePicturesOfItsCameras)
+{
+	const std::filesystem::path folder = scratchFolder() / "path";
+	std::filesystem::create_directories(folder);
+	std::ofstream(folder / "path.json") << R"({"keys": [
+		{"time_s": 0, "eye": [0, 1, 3], "target": [0, 0, 0], "up": [0, 1, 0], "fov_deg": 50},
+		{"time_s": 2, "eye": [3, 1, 0], "target": [0, 0, 0], "up": [0, 1, 0], "fov_deg": 50}]})";
+	const auto textOf = [](const std::filesystem::path& file) {
+		std::ifstream stream(file, std::ios::binary);
+		return std::string(std::istreambuf_iterator<char>(stream), {});
+	};
+	const std::string scene = "render builtin:cube --size 64x48 --rate 8 --quiet ";
+	const ProgramRun run =
+		runTessera(scene + "--frames 3 --camera-path " + (folder / "path.json").string() + " -o " + (folder / "f_##.png").string());
+	ASSERT_EQ(run.exit_code, 0) << run.errors;
+	const std::pair<const char*, const char*> expected[] = { { "f_00.png", "0,1,3" }, { "f_01.png", "1.5,1,1.5" }, { "f_02.png", "3,1,0" } };
+	for (const auto& [name, eye] : expected)
+	{
+		const std::string one = (folder / "one.png").string();
+		ASSERT_EQ(runTessera(scene + "--fov 50 --target 0,0,0 --eye " + eye + " -o " + one).exit_code, 0);
+		EXPECT_FALSE(textOf(one).empty());
+		EXPECT_EQ(textOf(folder / name) == textOf(one), true) << name;
+	}
+	EXPECT_EQ(runTessera(scene + "--camera-path " + (folder / "none.json").string()).exit_code, 3);
 }
 
 TEST_F(programWithDevice, anUnknownDeviceEndsWithFour)

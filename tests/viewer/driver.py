@@ -64,7 +64,7 @@ class Viewer:
         self.key(name)
         self.tool("keyup", modifier)
 
-    def state(self, timeout=60):
+    def state(self, timeout=240):
         """What the window reports now."""
         end = time.time() + timeout
         while time.time() < end:
@@ -83,19 +83,19 @@ class Viewer:
                 time.sleep(0.05)
         raise AssertionError("the viewer reports nothing\n" + self.log())
 
-    def wait(self, what, condition, timeout=60):
+    def wait(self, what, condition, timeout=120):
         """The first state for which the condition holds."""
         end = time.time() + timeout
         state = None
         while time.time() < end:
-            state = self.state()
+            state = self.state(max(timeout, 240))
             if condition(state):
                 return state
             time.sleep(0.1)
         state.pop("widgets", None)
         raise AssertionError("waited in vain for: %s\n%s\n%s" % (what, json.dumps(state, indent=1), self.log()))
 
-    def settled(self, timeout=60):
+    def settled(self, timeout=120):
         """A state after a frame that was begun after this call."""
         number = self.state()["frame"]["number"]
         return self.wait("two more frames", lambda s: s["frame"]["number"] >= number + 2, timeout)
@@ -149,7 +149,7 @@ class Viewer:
         """Keeps a picture of the whole window when pictures are wanted."""
         if self.pictures:
             path = os.path.join(self.pictures, name + ".png")
-            self.run("import", "-window", "root", "-crop", "1280x720+0+0", "+repage", "+dither", "-colors", "64", "-define", "png:compression-level=9", path)
+            self.run("import", "-window", "root", "-crop", "1280x720+0+0", "+repage", "+dither", "-colors", "40", "-define", "png:compression-level=9", path)
 
     def quit(self, timeout=60):
         self.keys("ctrl", "q")

@@ -36,7 +36,7 @@ def open_scene(viewer, path):
 
 
 def start_without_argument(viewer):
-    state = viewer.wait("the first picture", lambda s: s["frame"]["number"] > 1, 120)
+    state = viewer.wait("the first picture", lambda s: s["frame"]["number"] > 1, 300)
     assert state["scene"] == "builtin:planet" and state["error"] == "" and state["warnings"] == [], state["warnings"]
     assert state["frame"]["covered_pixels"] > 10000
     viewer.picture("01_start")
@@ -206,7 +206,10 @@ def same_picture_as_render(viewer, program, root, folder):
     viewer.drag((640, 360), (700, 330))
     viewer.keys("ctrl", "c")
     state = viewer.wait("the command", lambda s: s["command_line"] != "")
-    viewer.settled()
+    time.sleep(1.2)
+    state = viewer.settled()
+    print("  a picture of 1280x720 every %.0f ms, %.0f ms of it on the device, at rate %.3g" %
+          (state["frame"]["frame_ms"], state["frame"]["device_ms"], state["frame"]["rate_granted"]))
     captured, drawn = os.path.join(folder, "window.png"), os.path.join(folder, "render.png")
     viewer.run("import", "-window", "root", "-crop", "1280x720+0+0", "+repage", captured)
     words = shlex.split(state["command_line"])

@@ -1,0 +1,27 @@
+#include "frame/gate_check.h"
+
+#include "plan/conditions.h"
+
+#include <algorithm>
+
+namespace tessera
+{
+
+Status checkGates(const Device& device, const PlanInput& input)
+{
+	const RenderOptions& options = input.options;
+	const Raster raster = chosenRaster(input);
+	if (raster == Raster::Soft && !device.gates.buffer_atomics_64)
+		return fail(ExitCode::DeviceCannot, "--raster soft: {} lacks 64-bit buffer atomics; --raster mesh or indexed needs none", device.name);
+	if (raster == Raster::Mesh && !device.gates.mesh_shader)
+		return fail(ExitCode::DeviceCannot, "--raster mesh: {} lacks VK_EXT_mesh_shader; --raster indexed needs no mesh shaders", device.name);
+	if (raster == Raster::Indexed && !device.gates.fragment_primitive_id)
+		return fail(ExitCode::DeviceCannot, "--raster indexed: {} lacks primitive ids in fragment shaders (geometryShader) or 32-bit indices",
+					device.name);
+	if (options.width_px == 0 || options.height_px == 0 || std::max(options.width_px, options.height_px) > device.limits.max_image_extent)
+		return fail(ExitCode::Usage, "--size {}x{}: {} can draw from 1x1 to {}x{}", options.width_px, options.height_px, device.name,
+					device.limits.max_image_extent, device.limits.max_image_extent);
+	return {};
+}
+
+}  // namespace tessera
