@@ -39,6 +39,7 @@ class Viewer:
         self.state_file = os.path.join(folder, "ui_state.json")
         self.log_file = os.path.join(folder, "viewer.log")
         self.written = 0
+        self.pause = 0.35  # long enough for two frames of the window: it must see the mouse rest before it sees a click
         with open(self.log_file, "w") as log:
             self.process = subprocess.Popen([program, "view", *arguments, "--ui-state", self.state_file], cwd=folder, env=self.environment,
                                             stdout=log, stderr=log)
@@ -53,9 +54,9 @@ class Viewer:
     def tool(self, *arguments):
         self.run("xdotool", *[str(argument) for argument in arguments])
 
-    def key(self, name, pause=0.15):
+    def key(self, name, pause=None):
         self.tool("keydown", name)
-        time.sleep(pause)
+        time.sleep(self.pause if pause is None else pause)
         self.tool("keyup", name)
 
     def keys(self, modifier, name):
@@ -79,6 +80,7 @@ class Viewer:
                     state = {"written": 0}
                 if state["written"] > self.written:
                     self.written = state["written"]
+                    self.pause = max(0.35, min(2.5 * state["frame"]["frame_ms"] / 1000, 4))
                     return state
                 time.sleep(0.05)
         raise AssertionError("the viewer reports nothing\n" + self.log())
@@ -109,11 +111,11 @@ class Viewer:
 
     def press(self, x, y, button=1):
         self.tool("mousemove", int(x), int(y))
-        time.sleep(0.35)
+        time.sleep(self.pause)
         self.tool("mousedown", button)
-        time.sleep(0.35)
+        time.sleep(self.pause)
         self.tool("mouseup", button)
-        time.sleep(0.2)
+        time.sleep(self.pause)
 
     def click(self, widget, along=0.5):
         low, high = self.place(widget)
@@ -127,19 +129,20 @@ class Viewer:
 
     def drag(self, start, end, button=1):
         self.tool("mousemove", *start)
-        time.sleep(0.3)
+        time.sleep(self.pause)
         self.tool("mousedown", button)
+        time.sleep(self.pause)
         steps = 6
         for i in range(1, steps + 1):
-            time.sleep(0.12)
+            time.sleep(self.pause / 3)
             self.tool("mousemove", *[int(a + (b - a) * i / steps) for a, b in zip(start, end)])
-        time.sleep(0.3)
+        time.sleep(self.pause)
         self.tool("mouseup", button)
-        time.sleep(0.2)
+        time.sleep(self.pause)
 
     def type(self, text):
         self.tool("type", "--delay", "25", text)
-        time.sleep(0.4)
+        time.sleep(self.pause)
 
     def clear_field(self):
         self.keys("ctrl", "a")

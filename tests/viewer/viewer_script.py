@@ -46,9 +46,9 @@ def open_the_sphere(viewer, root):
     viewer.keys("ctrl", "o")
     viewer.wait("the open field", lambda s: "open.path" in s["widgets"])
     viewer.type(os.path.join(root, "bench/scenes/sphere.g"))
-    viewer.key("Tab", 0.4)  # completes the name
+    viewer.key("Tab")  # completes the name
     viewer.picture("02_open")
-    viewer.key("Return", 0.4)
+    viewer.key("Return")
     state = viewer.wait("the sphere", lambda s: s["scene"].endswith("sphere.gltf") and s["frame"]["number"] > 0 and not s["loading"])
     assert state["base_triangles"] == 20480
     viewer.settled()
@@ -123,7 +123,7 @@ def overflow_a_list(viewer):
     before = viewer.settled()
     viewer.click("capacity")
     viewer.type("part_triangles=500")
-    viewer.key("Return", 0.4)
+    viewer.key("Return")
     state = viewer.wait("a coarser frame", lambda s: s["frame"]["coarsening"] > 0)
     assert state["frame"]["rate_granted"] > state["frame"]["rate_wanted"] == before["frame"]["rate_wanted"]
     assert any("Coarser" in warning and "part_triangles" in warning for warning in state["warnings"]), state["warnings"]
