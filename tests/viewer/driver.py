@@ -19,7 +19,7 @@ class Display:
     def __init__(self, size="1400x900"):
         read, write = os.pipe()
         self.process = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(write), "-screen", "0", size + "x24", "-nolisten", "tcp"],
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", size + "x24", "-nolisten", "tcp", "-r"],  # -r: keys do not repeat
             pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(write)
         with os.fdopen(read) as numbers:
@@ -55,8 +55,9 @@ class Viewer:
         self.run("xdotool", *[str(argument) for argument in arguments])
 
     def key(self, name, pause=None):
+        """The viewer's own keys are events; those of text fields must be held while a frame sees them."""
         self.tool("keydown", name)
-        time.sleep(self.pause if pause is None else pause)
+        time.sleep(pause or (self.pause if name in ("Tab", "Return", "BackSpace", "a") else 0.1))
         self.tool("keyup", name)
 
     def keys(self, modifier, name):
