@@ -15,4 +15,7 @@ namespace tessera
 // Time linear in the file; about 1 s for ten million triangles.
 Result<ImportedScene> importGltf(const std::filesystem::path& path);
 
+// The same for a file that is in memory already, as if it lay at `path`.
+Result<ImportedScene> importGltf(const std::filesystem::path& path, std::vector<std::byte> bytes);
+
 }  // namespace tessera

@@ -6,6 +6,7 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace tessera
 {
@@ -70,8 +71,24 @@ struct Meshlets
 	std::vector<uint8_t> triangles;
 };
 
-Meshlets cutIntoMeshlets(const std::vector<uint32_t>& indices, const std::vector<vec3>& positions, const BuildOptions& options)
+// Positions whose squared areas would overflow or vanish in float are scaled by a power of two: meshoptimizer leaves out
+// triangles whose distance it cannot tell.
+void bringIntoRange(std::vector<vec3>& positions)
 {
+	constexpr float kLeast = 0x1p-20f, kMost = 0x1p+20f;
+	float largest = 0;
+	for (const vec3& p : positions)
+		largest = std::max({ largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z) });
+	if (largest == 0 || (largest >= kLeast && largest <= kMost))
+		return;
+	const int exponent = -std::ilogb(largest);
+	for (vec3& p : positions)
+		p = vec3(std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent));
+}
+
+Meshlets cutIntoMeshlets(const std::vector<uint32_t>& indices, std::vector<vec3> positions, const BuildOptions& options)
+{
+	bringIntoRange(positions);
 	std::vector<uint32_t> ordered(indices.size());
 	meshopt_optimizeVertexCache(ordered.data(), indices.data(), indices.size(), positions.size());
 	Meshlets result;
@@ -109,6 +126,10 @@ public:
 
 		TriangleFinder finder(indices);
 		const Meshlets cut = cutIntoMeshlets(indices, positions, options);
+		size_t triangles = 0;
+		for (const meshopt_Meshlet& meshlet : cut.meshlets)
+			triangles += meshlet.triangle_count;
+		CHECK(3 * triangles == indices.size(), "clusters have {} of {} triangles", triangles, indices.size() / 3);
 		for (const meshopt_Meshlet& meshlet : cut.meshlets)
 			appendCluster(meshlet, cut, first_vertex, first_triangle, finder, mesh_.materials[primitive]);
 	}

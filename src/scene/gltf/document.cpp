@@ -153,12 +153,12 @@ Result<std::span<const std::byte>> bufferViewBytes(const GltfDocument& document,
 	return buffer.subspan(offset, length);
 }
 
-Result<GltfDocument> readGltfDocument(const fs::path& path)
+Result<GltfDocument> readGltfDocument(const fs::path& path, std::vector<std::byte> bytes)
 {
 	GltfDocument document;
 	document.file = path.string();
 	document.folder = path.parent_path();
-	TRY_ASSIGN(document.file_bytes, readFile(path));
+	document.file_bytes = std::move(bytes);
 	std::span<const std::byte> json = document.file_bytes;
 	if (isGlb(json))
 	{

@@ -47,10 +47,10 @@ struct GltfDocument
 	}
 };
 
-// Reads a .gltf or .glb file (told apart by its first bytes), checks its JSON and loads its buffers.
-// Errors: BadInput (unreadable, broken container, JSON nested deeper than 128, schema, missing or short buffers, unsupported
-// required extensions).
-Result<GltfDocument> readGltfDocument(const std::filesystem::path& path);
+// Reads `bytes` as the .gltf or .glb file (told apart by its first bytes) at `path`, checks its JSON and loads its buffers. `path` names it in
+// messages, and other files are read beside it.
+// Errors: BadInput (broken container, JSON nested deeper than 128, schema, missing or short buffers, unsupported required extensions).
+Result<GltfDocument> readGltfDocument(const std::filesystem::path& path, std::vector<std::byte> bytes);
 
 // Bytes of bufferViews[index], which must be a valid index. Errors: BadInput when it reaches beyond its buffer.
 Result<std::span<const std::byte>> bufferViewBytes(const GltfDocument& document, size_t index);

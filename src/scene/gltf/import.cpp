@@ -1,6 +1,7 @@
 #include "scene/gltf_import.h"
 
 #include "base/check.h"
+#include "base/file.h"
 #include "base/parallel.h"
 #include "scene/gltf/draco.h"
 #include "scene/gltf/material.h"
@@ -168,10 +169,23 @@ static Result<ImportedScene> importDocument(GltfDocument& document)
 
 Result<ImportedScene> importGltf(const std::filesystem::path& path)
 {
+	try
+	{
+		TRY_ASSIGN(std::vector<std::byte> bytes, readFile(path));
+		return importGltf(path, std::move(bytes));
+	}
+	catch (const std::bad_alloc&)
+	{
+		return badInput("{}: does not fit into memory", path.string());
+	}
+}
+
+Result<ImportedScene> importGltf(const std::filesystem::path& path, std::vector<std::byte> bytes)
+{
 	setWorkingOn(fmt::format("importing {}", path.string()));
 	try
 	{
-		TRY_ASSIGN(GltfDocument document, readGltfDocument(path));
+		TRY_ASSIGN(GltfDocument document, readGltfDocument(path, std::move(bytes)));
 		return importDocument(document);
 	}
 	catch (const std::bad_alloc&)

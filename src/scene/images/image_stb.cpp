@@ -1,5 +1,7 @@
 #include "scene/images/image_stb.h"
 
+#include "scene/images/jpeg_check.h"
+
 #include <limits>
 #include <memory>
 
@@ -29,6 +31,7 @@ Result<Image> decodeStb(std::span<const std::byte> bytes, const std::string& nam
 {
 	if (bytes.size() > static_cast<size_t>(std::numeric_limits<int>::max()))
 		return badInput("{}: has {} bytes, at most 2^31 - 1 can be read", name, bytes.size());
+	TRY(checkJpeg(bytes, name));
 	const stbi_uc* data = reinterpret_cast<const stbi_uc*>(bytes.data());
 	const int size = static_cast<int>(bytes.size());
 	Image image;
