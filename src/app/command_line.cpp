@@ -62,6 +62,11 @@ void addVerifyOptions(CLI::App& app, CommandLine& line)
 	app.add_flag("--usual-way", line.usual_way,
 				 "also count the cracks that displacing each side by its own normals and texture coordinates would open");
 	app.add_option("--against", line.against, "another device, compared with the first")->type_name("NAME|N");
+	app.add_option("--leaks", line.leak_views, "only: does background shine through, from N random places? Fast enough for thousands")
+		->type_name("N")
+		->check(CLI::Range(1u, 1000000u));
+	app.add_option("--suite", line.suite, "instead of a SCENE: extreme input made in code; extreme-quick is the part that takes minutes")
+		->type_name("NAME[:FAMILY|:CASE]");
 }
 
 void addViewOptions(CLI::App& app, CommandLine& line)
@@ -87,7 +92,7 @@ std::string outputHelp(Command command)
 	case Command::Report:
 		return "folder to write (default report)";
 	case Command::Verify:
-		return "picture of the frame with most violations, marked red (.png)";
+		return "picture of the frame with most violations (.png), marked red, which is --view violations; or as another --view shows it";
 	default:
 		return "file to write";
 	}
@@ -149,6 +154,24 @@ std::string mainHelp()
 	return text + "\n" + sceneHelp() + "\nOptions of every command\n" + optionsHelp();
 }
 
+// Violations are painted from what verify read back, so no shader knows that view. Takes it out of the arguments; returns whether the picture
+// shows it: unless another view is asked for.
+bool takeViolationsView(std::vector<std::string>& arguments)
+{
+	bool other = false;
+	for (size_t i = 0; i + 1 < arguments.size(); ++i)
+	{
+		if (arguments[i] != "--view")
+			continue;
+		other = arguments[i + 1] != "violations";
+		if (other)
+			continue;
+		arguments.erase(arguments.begin() + std::ptrdiff_t(i), arguments.begin() + std::ptrdiff_t(i) + 2);
+		--i;
+	}
+	return !other;
+}
+
 Result<CommandLine> parseCommand(const CommandDesc& command, std::vector<std::string> arguments)
 {
 	CommandLine line;
@@ -158,7 +181,10 @@ Result<CommandLine> parseCommand(const CommandDesc& command, std::vector<std::st
 	app.formatter(std::make_shared<HelpFormatter>());
 	app.get_formatter()->column_width(32);
 	if (command.command == Command::Verify)
+	{
 		TRY(setOption(*findOption("size"), "640x360", line.options));
+		line.paints_violations = takeViolationsView(arguments);
+	}
 	if (command.command == Command::View)
 		TRY(setOption(*findOption("size"), "1280x720", line.options));
 	if (command.command == Command::Export)

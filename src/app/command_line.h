@@ -25,9 +25,12 @@ struct CommandLine
 	std::string stats;            // file, "-" = standard output, empty = none; of verify: its report
 	uint32_t random_cameras = 6;  // of verify
 	uint64_t seed = 1;
-	std::string inject;      // a fault's name; empty: none
-	std::string against;     // a second device; empty: none
-	bool usual_way = false;  // of verify
+	std::string inject;             // a fault's name; empty: none
+	std::string against;            // a second device; empty: none
+	std::string suite;              // of verify: instead of a scene; empty: none
+	uint32_t leak_views = 0;        // of verify: only the check no_leaks, from this many random places; 0: every check
+	bool paints_violations = true;  // of verify: what -o shows; false: what --view says
+	bool usual_way = false;         // of verify
 	bool base = false, print_plan = false, json = false;
 	// of view
 	bool shows_interface = true;

@@ -16,6 +16,8 @@ Status exportCommand(const CommandLine& line);
 
 // Checks the promises of DESIGN.md, section 4; prints a table. Errors beside the usual: CheckFailed when one is broken.
 Status verifyCommand(const CommandLine& line);
+// verify --suite. Errors: Usage, those of verify::runSuite, CheckFailed when a case failed.
+Status suiteCommand(const CommandLine& line);
 
 // Prints device, scene and plan on standard output.
 Status infoCommand(const CommandLine& line);

@@ -5,6 +5,7 @@
 #include "app/verify_report.h"
 #include "base/log.h"
 #include "output/png.h"
+#include "verify/leak_views.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -14,14 +15,6 @@ namespace tessera
 
 namespace
 {
-
-verify::Fault faultNamed(const std::string& name)
-{
-	for (size_t i = 0; i < std::size(verify::kFaultNames); ++i)
-		if (verify::kFaultNames[i] == name)
-			return static_cast<verify::Fault>(i);
-	return verify::Fault::None;
-}
 
 // The chosen camera, the scene's and random ones.
 std::vector<verify::NamedCamera> camerasOf(const CommandLine& line, const Subject& subject)
@@ -50,12 +43,13 @@ Result<verify::Request> requestFor(const CommandLine& line, const Subject& subje
 	request.options = line.options;
 	request.uncut_options = uncut;
 	request.paths = line.options.raster == Raster::Auto ? verify::rasterPaths(device) : std::vector{ line.options.raster };
-	request.cameras = camerasOf(line, subject);
+	request.cameras = line.leak_views > 0 ? verify::randomCameras(subject.scene, line.seed, line.leak_views) : camerasOf(line, subject);
+	request.paints_violations = line.paints_violations;
 	request.rates.assign(line.options.rates.begin(), line.options.rates.end());
 	if (request.rates.empty())
 		request.rates = { line.options.rate };
 	request.seed = line.seed;
-	request.fault = faultNamed(line.inject);
+	request.fault = verify::faultNamed(line.inject);
 	request.usual_way = line.usual_way;
 	return request;
 }
@@ -86,6 +80,8 @@ Status tell(const CommandLine& line, const Subject& subject, const Device& devic
 
 Status verifyCommand(const CommandLine& line)
 {
+	if (!line.suite.empty())
+		return suiteCommand(line);
 	if (!line.output.empty() && !line.output.ends_with(".png"))
 		return fail(ExitCode::Usage, "-o {}: pictures are written as .png", line.output);
 	TRY_ASSIGN(const Subject subject, loadSubject(line.scene, line.options));
@@ -99,7 +95,7 @@ Status verifyCommand(const CommandLine& line)
 	}
 	TRY_ASSIGN(verify::Request request, requestFor(line, subject, *device));
 	request.other_device = other.get();
-	TRY_ASSIGN(const verify::Report report, verify::run(request));
+	TRY_ASSIGN(const verify::Report report, line.leak_views > 0 ? verify::runLeaks(request) : verify::run(request));
 	TRY(tell(line, subject, *device, report));
 	if (const uint32_t count = device->validationMessages() + (other ? other->validationMessages() : 0))
 		return fail(ExitCode::CheckFailed, "--validate: the validation layer had {}", counted(count, "message"));

@@ -98,8 +98,8 @@ std::string verifyTable(const verify::Report& report, const Device& device, cons
 	if (usual.points > 0)
 		text += fmt::format("\nthe usual way, {} points on shared edges: {} cracks when each side displaces by its own normals and texture "
 							"coordinates (largest gap {:.3g} "
-							"mesh units), {} with float barycentrics too ({:.3g}); here {}\n",
-							usual.points, usual.own_sides, usual.own_sides_gap, usual.barycentrics, usual.barycentrics_gap,
+							"mesh units), {} with float barycentrics too ({:.3g}), {} triangles lost by clamping to the lists; here {}\n",
+							usual.points, usual.own_sides, usual.own_sides_gap, usual.barycentrics, usual.barycentrics_gap, usual.lost,
 							report.checks.front().result.violations);
 	return text;
 }
@@ -126,7 +126,8 @@ ordered_json verifyJson(const verify::Report& report, const Device& device, cons
 	if (usual.points > 0)
 		json["usual_way"] = { { "points", usual.points },
 							  { "own_sides", { { "cracks", usual.own_sides }, { "largest_gap_mesh_units", usual.own_sides_gap } } },
-							  { "float_barycentrics", { { "cracks", usual.barycentrics }, { "largest_gap_mesh_units", usual.barycentrics_gap } } } };
+							  { "float_barycentrics", { { "cracks", usual.barycentrics }, { "largest_gap_mesh_units", usual.barycentrics_gap } } },
+							  { "lost_triangles", usual.lost } };
 	json["frames"] = ordered_json::array();
 	for (const verify::FrameLine& frame : report.frames)
 		json["frames"].push_back({ { "camera", frame.camera },

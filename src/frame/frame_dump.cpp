@@ -98,7 +98,11 @@ Result<FrameDump> readDump(Renderer& renderer)
 
 Result<std::vector<uint64_t>> readVisibility(Renderer& renderer)
 {
-	return readAll<uint64_t>(renderer, "kept_visibility");
+	TRY_ASSIGN(std::vector<uint64_t> words, readAll<uint64_t>(renderer, "kept_visibility"));
+	// Buffers end at a multiple of 16 bytes: with an odd number of pixels there is one word more.
+	const RenderOptions& options = renderer.planInput().options;
+	words.resize(std::min(words.size(), size_t(options.width_px) * options.height_px));
+	return words;
 }
 
 }  // namespace tessera

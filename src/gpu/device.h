@@ -31,6 +31,7 @@ struct DeviceLimits
 	uint32_t mesh_workgroup_threads = 32;  // what the device prefers for mesh shaders, within its limits
 	uint32_t max_mesh_rows = 65535;        // second dimension of a mesh draw
 	uint32_t max_image_extent = 0;
+	uint64_t max_buffer_bytes = 0;           // drivers crash beyond it
 	uint32_t loop_workgroups = 0;            // workgroups of a dispatch whose threads loop over a list
 	uint32_t compute_workgroup_threads = 0;  // of every pass that takes it as a constant; 0: each pass's own
 	double timestamp_ns = 0;                 // per tick; 0: no timestamps

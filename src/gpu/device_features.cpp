@@ -115,7 +115,8 @@ void describeDevice(Device& device)
 {
 	VkPhysicalDeviceMeshShaderPropertiesEXT mesh = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_PROPERTIES_EXT };
 	VkPhysicalDeviceVulkan11Properties vulkan11 = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES, &mesh };
-	VkPhysicalDeviceDriverProperties driver = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, &vulkan11 };
+	VkPhysicalDeviceVulkan13Properties vulkan13 = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES, &vulkan11 };
+	VkPhysicalDeviceDriverProperties driver = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, &vulkan13 };
 	VkPhysicalDeviceProperties2 properties2 = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver };
 	vkGetPhysicalDeviceProperties2(device.physical, &properties2);
 	const VkPhysicalDeviceProperties& properties = properties2.properties;
@@ -127,6 +128,7 @@ void describeDevice(Device& device)
 	DeviceLimits& limits = device.limits;
 	limits.subgroup_size = vulkan11.subgroupSize;
 	limits.max_workgroup_threads = properties.limits.maxComputeWorkGroupInvocations;
+	limits.max_buffer_bytes = vulkan13.maxBufferSize;
 	limits.max_image_extent = std::min(properties.limits.maxImageDimension2D, properties.limits.maxFramebufferWidth);
 	limits.timestamp_ns = properties.limits.timestampComputeAndGraphics ? double(properties.limits.timestampPeriod) : 0;
 	// Enough workgroups to fill any GPU; a processor needs only some per core.

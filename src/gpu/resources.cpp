@@ -10,6 +10,9 @@ Result<Buffer> Buffer::create(Device& device, uint64_t bytes, MemoryKind kind, c
 {
 	VkBufferCreateInfo info = { VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO };
 	info.size = std::max<uint64_t>(16, (bytes + 15) / 16 * 16);
+	if (info.size > device.limits.max_buffer_bytes)
+		return badInput("{}: {} bytes are too many for one buffer, {} can have {}; a smaller scene, --size, --budget or a coarser --rate is right",
+						name, info.size, device.name, device.limits.max_buffer_bytes);
 	info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
 				 VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
 				 VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/file.h"
+#include "output/exr.h"
 #include "output/png.h"
 
 #include <nlohmann/json.hpp>
@@ -244,15 +245,22 @@ static Result<json> materialJson(GlbFile& file, const Material& material)
 	return result;
 }
 
+static Result<std::vector<std::byte>> encodeImage(const Image& image)
+{
+	if (image.format != TexelFormat::F32)
+		return encodePng({ image.width, image.height, image.channels, image.format == TexelFormat::U16 ? 16u : 8u, image.texels });
+	std::vector<float> texels(image.texels.size() / sizeof(float));
+	std::memcpy(texels.data(), image.texels.data(), texels.size() * sizeof(float));
+	return encodeExr(image.width, image.height, image.channels, texels);
+}
+
 static Status addTextures(GlbFile& file, const ImportedScene& scene)
 {
 	for (const Image& image : scene.images)
 	{
-		if (image.format == TexelFormat::F32)
-			return badInput("{}: image '{}' has float texels, which a PNG inside a .glb cannot hold", file.path(), image.name);
-		const uint32_t bits = image.format == TexelFormat::U16 ? 16 : 8;
-		TRY_ASSIGN(const std::vector<std::byte> png, encodePng({ image.width, image.height, image.channels, bits, image.texels }));
-		file.append("images", { { "name", image.name }, { "mimeType", "image/png" }, { "bufferView", file.addView(png, kNoTarget) } });
+		TRY_ASSIGN(const std::vector<std::byte> bytes, encodeImage(image));
+		const char* type = image.format == TexelFormat::F32 ? "image/x-exr" : "image/png";
+		file.append("images", { { "name", image.name }, { "mimeType", type }, { "bufferView", file.addView(bytes, kNoTarget) } });
 	}
 	for (const Texture& texture : scene.textures)
 	{

@@ -7,11 +7,9 @@ namespace tessera
 {
 
 // Writes everything of a scene into one file: meshes, materials (KHR_materials_displacement, KHR_texture_transform where it is not the
-// identity), textures (images as embedded PNG, 8 or 16 bits), instances as nodes, cameras. Importing it gives the same scene back:
-// floats, texels and matrices are stored exactly.
-// Left out: the scene's warnings and path.
-// Errors: BadInput (path and reason: more than 4 GiB, a float image, which PNG cannot hold, a texture transform that
-// KHR_texture_transform cannot say, because it shears); no partial file is left.
+// identity), textures (images as embedded PNG of 8 or 16 bits, float ones as OpenEXR), instances as nodes, cameras. Importing it gives the same scene
+// back: floats, texels and matrices are stored exactly. Left out: the scene's warnings and path. Errors: BadInput (path and reason: more than 4 GiB,
+// a texture transform that KHR_texture_transform cannot say, because it shears); no partial file is left.
 Status writeSceneGlb(const std::filesystem::path& path, const ImportedScene& scene);
 
 // Writes one plain mesh with one node and a default material.

@@ -1,5 +1,7 @@
 #include "reference/double_surface.h"
 
+#include "scene/camera.h"
+
 #include <algorithm>
 
 namespace tessera::reference
@@ -171,10 +173,10 @@ DoubleSurface::Height DoubleSurface::heightAt(const Source& source, uint32_t ins
 {
 	const HeightMapData& map = scene_.built().height_maps[source.height_map];
 	const dmat3 linear = dmat3(scene_.built().instances[instance].world);
-	const double scale = std::sqrt((glm::dot(linear[0], linear[0]) + glm::dot(linear[1], linear[1]) + glm::dot(linear[2], linear[2])) / 3);
+	const double inverse_scale = std::sqrt(inverseScaleSquared(scene_.built().instances[instance]));
 	const dvec3 from_eye = fromEye(instance, base_point);
 	const double distance = rateDistance(from_eye);
-	const double footprint = distance * std::sqrt(double(view_.sample_over_focal_squared)) / scale * source.density;
+	const double footprint = distance * std::sqrt(double(view_.sample_over_focal_squared)) * inverse_scale * source.density;
 	const double level = std::min(levelOf(footprint * footprint), double(map.record.level_count - 1));
 	const auto fine_level = uint32_t(level);
 	const double blend = level - fine_level;

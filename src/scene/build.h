@@ -14,7 +14,8 @@ struct BuildOptions
 
 // import → weld → normals and directions → vertices → seams → clusters → bounds → traits (DESIGN.md, section 3).
 // Only meshes that an instance places are built; the others get an empty MeshRecord. The result depends on the input alone.
-// Errors: Usage (options out of range), BadInput (a mesh or the scene is too large for 32-bit indices).
+// Errors: Usage (options out of range), BadInput (a mesh or the scene is too large for 32-bit indices, or reaches farther than 2^60 from
+// its origin, displaced).
 // Time is linear in triangles and height texels; memory about 300 bytes per triangle at the peak.
 Result<BuiltScene> buildScene(const ImportedScene& imported, const BuildOptions& options = {});
 

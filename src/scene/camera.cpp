@@ -212,6 +212,13 @@ Result<View> drawnFrom(const View& tessellated, const Camera& tessellated_for, c
 	return view;
 }
 
+double inverseScaleSquared(const Instance& instance)
+{
+	const dmat3 axes(instance.world);
+	const double scale_squared = (glm::dot(axes[0], axes[0]) + glm::dot(axes[1], axes[1]) + glm::dot(axes[2], axes[2])) / 3;
+	return scale_squared > 1e-60 ? std::min(1 / scale_squared, 1e30) : 0;
+}
+
 InstanceRecord instanceRecord(const Instance& instance)
 {
 	const dmat4& world = instance.world;
@@ -222,10 +229,7 @@ InstanceRecord instanceRecord(const Instance& instance)
 	record.row2 = vec3(world[0].z, world[1].z, world[2].z);
 	record.translation_high = highPart(translation);
 	record.translation_low = lowPart(translation);
-	// World units per mesh unit, squared: the mean over the axes.
-	const double scale_squared =
-		(glm::dot(dvec3(world[0]), dvec3(world[0])) + glm::dot(dvec3(world[1]), dvec3(world[1])) + glm::dot(dvec3(world[2]), dvec3(world[2]))) / 3;
-	record.inverse_scale_squared = scale_squared > 1e-60 ? static_cast<float>(std::min(1 / scale_squared, 1e30)) : 0;
+	record.inverse_scale_squared = static_cast<float>(inverseScaleSquared(instance));
 	record.mesh = instance.mesh;
 	record.mirrored = glm::determinant(dmat3(world)) < 0 ? 1 : 0;
 	return record;

@@ -53,6 +53,9 @@ void setRate(View& view, const Camera& camera, const ViewRequest& request);
 // s^2 = (rate / focal_px)^2 of the metric `edge` in float; +infinity for rate 0.
 float rateOverFocalSquared(const Camera& camera, uint32_t height_px, double rate_px);
 
+// 1 / (world units per mesh unit)^2, the mean over the axes, as mip levels are found with; 0 for an instance without extent.
+double inverseScaleSquared(const Instance& instance);
+
 InstanceRecord instanceRecord(const Instance& instance);
 
 // What the host can say of factors before the frame: an upper bound over all instances.

@@ -102,6 +102,12 @@ Result<std::string> tie(BuiltScene& scene, Random& random)
 
 }  // namespace
 
+Fault faultNamed(std::string_view name)
+{
+	const auto found = std::find(std::begin(kFaultNames), std::end(kFaultNames), name);
+	return found == std::end(kFaultNames) ? Fault::None : static_cast<Fault>(found - std::begin(kFaultNames));
+}
+
 Result<FaultyScene> withFault(const BuiltScene& scene, Fault fault, uint64_t seed)
 {
 	FaultyScene faulty = { scene, {} };

@@ -19,6 +19,9 @@ enum class Fault : uint8_t
 };
 inline constexpr std::string_view kFaultNames[] = { "none", "crack", "drop", "cull", "nan", "tie" };
 
+// Fault::None for any other name.
+Fault faultNamed(std::string_view name);
+
 struct FaultyScene
 {
 	BuiltScene scene;

@@ -35,13 +35,15 @@ bool onOneEdge(DomainPoint p, DomainPoint q)
 struct InputShape
 {
 	int64_t corners = 0;
-	int64_t euler = 0;  // vertices - edges + faces
+	int64_t euler = 0;     // vertices - edges + faces
+	bool oriented = true;  // neighbours are wound alike, so that areas have a sign
 };
 
 InputShape shapeOf(const reference::HostScene& scene, const MeshRecord& mesh)
 {
 	std::set<uint32_t> vertices;
-	std::set<std::pair<uint32_t, uint32_t>> edges;
+	std::set<std::pair<uint32_t, uint32_t>> edges, walked;
+	InputShape shape;
 	int64_t faces = 0;
 	for (uint32_t cluster = mesh.first_cluster; cluster < mesh.first_cluster + mesh.cluster_count; ++cluster)
 		for (uint32_t t = 0; t < clusterTriangles(scene.built().clusters[cluster]); ++t, ++faces)
@@ -50,9 +52,14 @@ InputShape shapeOf(const reference::HostScene& scene, const MeshRecord& mesh)
 			const uint32_t w[3] = { scene.built().weld_ids[base.v0], scene.built().weld_ids[base.v1], scene.built().weld_ids[base.v2] };
 			vertices.insert(w, w + 3);
 			for (int i = 0; i < 3; ++i)
+			{
 				edges.insert(std::minmax(w[i], w[(i + 1) % 3]));
+				shape.oriented &= walked.insert({ w[i], w[(i + 1) % 3] }).second;
+			}
 		}
-	return { int64_t(vertices.size()), int64_t(vertices.size()) - int64_t(edges.size()) + faces };
+	shape.corners = int64_t(vertices.size());
+	shape.euler = shape.corners - int64_t(edges.size()) + faces;
+	return shape;
 }
 
 InputShape shapeOf(const reference::HostScene& scene)
@@ -66,6 +73,7 @@ InputShape shapeOf(const reference::HostScene& scene)
 			found->second = shapeOf(scene, scene.built().meshes[instance.mesh]);
 		sum.corners += found->second.corners;
 		sum.euler += found->second.euler;
+		sum.oriented &= found->second.oriented;
 	}
 	return sum;
 }
@@ -131,13 +139,16 @@ void Topology::check(const reference::HostScene& scene, CheckResult& result) con
 	result.sums["micro-triangles"] += uint64_t(triangles_ + collapsed_);
 	if (traits.boundary_edges > 0 || traits.nonmanifold_edges > 0 || traits.degenerate_triangles > 0)
 		return;
-	result.measure("volume, mesh units cubed", volume_);
-	const double open = area_ > 0 ? glm::length(vector_area_) / area_ : 0;
-	result.measure("vector area over area", open);
-	if (!(open <= kAreaRoom))
-		result.violation(open, nowhere(fmt::format("the closed input's output has vector area {:.3g} of its area", open)));
-	// Slivers may collapse micro-triangles, which makes no hole but may take an edge or two along.
 	const InputShape input = shapeOf(scene);
+	if (input.oriented)
+	{
+		result.measure("volume, mesh units cubed", volume_);
+		const double open = area_ > 0 ? glm::length(vector_area_) / area_ : 0;
+		result.measure("vector area over area", open);
+		if (!(open <= kAreaRoom))
+			result.violation(open, nowhere(fmt::format("the closed input's output has vector area {:.3g} of its area", open)));
+	}
+	// Slivers may collapse micro-triangles, which makes no hole but may take an edge or two along.
 	const int64_t euler = input.corners + edge_points_ + inner_points_ - edge_segments_ - inner_edges_ + triangles_;
 	if (collapsed_ == 0 && euler != input.euler)
 		result.violation(std::abs(double(euler - input.euler)),

@@ -53,6 +53,7 @@ void UsualWay::merge(const UsualWay& other)
 	own_sides_gap = std::max(own_sides_gap, other.own_sides_gap);
 	barycentrics += other.barycentrics;
 	barycentrics_gap = std::max(barycentrics_gap, other.barycentrics_gap);
+	lost = std::max(lost, other.lost);
 }
 
 UsualWay measureUsualWay(const reference::HostScene& scene, const View& view, std::span<const MicroTriangle> sorted)
@@ -62,6 +63,15 @@ UsualWay measureUsualWay(const reference::HostScene& scene, const View& view, st
 	const auto compared = own_sides.sums.find("edge points compared");
 	return { compared == own_sides.sums.end() ? 0 : compared->second, own_sides.violations, own_sides.worst, barycentrics.violations,
 			 barycentrics.worst };
+}
+
+uint64_t lostTheUsualWay(const FrameResult& result)
+{
+	uint64_t lost = 0;
+	for (const ListStats& list : result.lists)
+		if ((list.name == "part_triangles" || list.name == "split_triangles") && list.peak > list.capacity)
+			lost += list.peak - list.capacity;
+	return lost;
 }
 
 }  // namespace tessera::verify

@@ -110,10 +110,15 @@ private:
 		const RenderOptions roomy = withOtherCapacities(uncut, *request_.scene, device);
 		const Variation other_groups = { "other workgroup sizes", false, device.is_cpu ? 64u : 128u,
 										 device.limits.mesh_workgroup_threads == 32 ? 64u : 32u, std::max(1u, device.limits.loop_workgroups / 3) };
-		const Variation plain = { "other capacities" }, shuffled = { "shuffled instances and clusters", true };
-		for (const auto& [options, variation] : { std::pair(&roomy, &plain), std::pair(&uncut, &other_groups), std::pair(&uncut, &shuffled) })
+		Variation everything = other_groups;
+		everything.name = "other capacities and workgroup sizes, shuffled";
+		everything.shuffled = true;
+		std::vector<std::pair<RenderOptions, Variation>> ways = { { roomy, everything } };
+		if (!request_.one_variation)
+			ways = { { roomy, { "other capacities" } }, { uncut, other_groups }, { uncut, { "shuffled instances and clusters", true } } };
+		for (const auto& [options, variation] : ways)
 		{
-			TRY_ASSIGN(auto varied, source(device, givenToVariations(), *options, path, rate, true, *variation));
+			TRY_ASSIGN(auto varied, source(device, givenToVariations(), options, path, rate, true, variation));
 			sources.variations.push_back(std::move(varied));
 		}
 		return sources;
@@ -137,7 +142,8 @@ private:
 		for (const NamedCamera& camera : request_.cameras)
 			for (const float rate : rates)
 			{
-				logInfo("verifying camera {}, rate {} ({} of {})", camera.name, rate, ++done, request_.cameras.size() * rates.size());
+				if (request_.tells_progress)
+					logInfo("verifying camera {}, rate {} ({} of {})", camera.name, rate, ++done, request_.cameras.size() * rates.size());
 				TRY(runFrame(camera, rate, paths, other.get()));
 			}
 		return {};
@@ -170,7 +176,7 @@ private:
 		if (report_.picture.empty() || violations > most_violations_)
 		{
 			most_violations_ = violations;
-			report_.picture = paintViolations(first.visible, first.picture, marks_);
+			report_.picture = request_.paints_violations ? paintViolations(first.visible, first.picture, marks_) : first.picture;
 			report_.picture_frame = fmt::format("camera {}, rate {}", camera.name, rate);
 		}
 		report_.frames.push_back({ camera.name, result.rate_wanted, result.rate_granted, result.every_factor_one, result.counts.micro_triangles,
@@ -212,7 +218,10 @@ private:
 		add(kDeterministic, compareMicro(expected, uncut.micro, "the CPU's"));
 		report_.seams.merge(measureSeams(truth_, uncut.view, screen, uncut.micro));
 		if (request_.usual_way)
+		{
 			report_.usual_way.merge(measureUsualWay(truth_, uncut.view, uncut.micro));
+			report_.usual_way.lost = std::max(report_.usual_way.lost, lostTheUsualWay(uncut.result));
+		}
 	}
 
 	// A fault in culling is made for what is seen first.

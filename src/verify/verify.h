@@ -22,7 +22,10 @@ struct Request
 	std::vector<float> rates;
 	uint64_t seed = 1;
 	Fault fault = Fault::None;
-	bool usual_way = false;  // also measure what the usual way would crack
+	bool usual_way = false;      // also measure what the usual way would crack
+	bool one_variation = false;  // all that must not matter is varied at once: fewer pipelines, but less told of what mattered
+	bool tells_progress = true;
+	bool paints_violations = true;  // in the report's picture
 };
 
 struct FrameLine

@@ -29,3 +29,11 @@ set_tests_properties(viewer.doesWhatAScriptOfClicksAndKeysAsks PROPERTIES LABELS
 
 gtest_discover_tests(gpu_verify_test PROPERTIES LABELS gpu)
 gtest_discover_tests(gpu_verify_slow_test PROPERTIES LABELS slow TIMEOUT 7200)
+
+# The extreme suite: a test per family, so that they can run side by side; the whole of it, on every raster path, is slow.
+foreach(family IN ITEMS scale geometry displacement views counts animation)
+  add_test(NAME verifySuite.quick_${family} COMMAND tessera verify --suite extreme-quick:${family} --quiet)
+  set_tests_properties(verifySuite.quick_${family} PROPERTIES LABELS gpu SKIP_RETURN_CODE 4 TIMEOUT 900)
+endforeach()
+add_test(NAME verifySuite.extreme COMMAND tessera verify --suite extreme --quiet)
+set_tests_properties(verifySuite.extreme PROPERTIES LABELS slow SKIP_RETURN_CODE 4 TIMEOUT 7200)

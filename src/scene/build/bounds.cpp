@@ -269,8 +269,6 @@ void boundWorld(BuiltScene& scene)
 		{
 			const dvec3 p(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y, corner & 4 ? box.high.z : box.low.z);
 			const dvec3 placed_corner(instance.world * dvec4(p, 1));
-			if (!std::isfinite(placed_corner.x + placed_corner.y + placed_corner.z))
-				continue;
 			low = glm::min(low, placed_corner);
 			high = glm::max(high, placed_corner);
 		}

@@ -34,6 +34,32 @@ Status checkSize(const ImportedScene& imported, const MaterialUses& uses)
 	return {};
 }
 
+// Squares of lengths, and their ratios, must stay within a 32-bit float.
+constexpr double kFarthest = 0x1p60;
+
+double largestOf(dvec3 p)
+{
+	return std::max({ std::abs(p.x), std::abs(p.y), std::abs(p.z) });
+}
+
+Status checkReach(const BuiltScene& scene)
+{
+	for (size_t i = 0; i < scene.meshes.size(); ++i)
+	{
+		if (scene.meshes[i].cluster_count == 0)
+			continue;
+		const Box box = displacedBox(scene.mesh_bounds[i], 1.0f);
+		const double reach = std::max(largestOf(box.low), largestOf(box.high));
+		if (!(reach <= kFarthest))
+			return badInput("{}: mesh {} reaches {:.3g} mesh units from its origin, displaced; at most 2^60 (1.15e18) is right", scene.path, i,
+							reach);
+	}
+	const double reach = std::max(largestOf(scene.world_low), largestOf(scene.world_high));
+	if (!(reach <= kFarthest))
+		return badInput("{}: an instance reaches {:.3g} world units from the origin; at most 2^60 (1.15e18) is right", scene.path, reach);
+	return {};
+}
+
 VertexArrays arraysOf(const ImportedScene& imported, const MaterialUses& uses)
 {
 	VertexArrays arrays;
@@ -102,6 +128,7 @@ Result<BuiltScene> buildScene(const ImportedScene& imported, const BuildOptions&
 		scene.seam_corner_indices = {};
 	}
 	buildBounds(scene);
+	TRY(checkReach(scene));
 	findTraits(scene);
 	return scene;
 }
