@@ -1,5 +1,8 @@
 #include "base/file.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -36,6 +39,71 @@ Result<std::vector<std::byte>> readFile(const fs::path& path, uint64_t max_bytes
 	return bytes;
 }
 
+namespace
+{
+
+Status cannotWrite(const fs::path& path, const std::string& reason)
+{
+	return badInput("{}: cannot be written: {}", path.string(), reason);
+}
+
+bool writeAll(std::FILE* file, std::span<const std::byte> bytes)
+{
+	return std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() && std::fflush(file) == 0;
+}
+
+Status renameOver(const fs::path& temporary, const fs::path& path)
+{
+	std::error_code code;
+	fs::rename(temporary, path, code);
+	if (!code)
+		return {};
+	const std::string reason = code.message();
+	fs::remove(temporary, code);
+	return cannotWrite(path, reason);
+}
+
+// Under a name of its own, then renamed: a killed program leaves that name behind.
+Status writeBeside(const fs::path& path, const fs::path& temporary, std::span<const std::byte> bytes)
+{
+	{
+		const File file(std::fopen(temporary.c_str(), "wb"));
+		if (!file || !writeAll(file.get(), bytes))
+		{
+			const std::string reason = std::strerror(errno);
+			std::error_code code;
+			fs::remove(temporary, code);
+			return cannotWrite(path, reason);
+		}
+	}
+	return renameOver(temporary, path);
+}
+
+#ifdef O_TMPFILE
+// Without a name until it is whole: a program that is killed leaves nothing behind. `named`: false when the file system cannot do that.
+Status writeNameless(const fs::path& path, const fs::path& temporary, std::span<const std::byte> bytes, bool& named)
+{
+	const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+	const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+	const File file(descriptor >= 0 ? ::fdopen(descriptor, "wb") : nullptr);
+	named = file != nullptr;
+	if (!named)
+		return {};
+	if (!writeAll(file.get(), bytes))
+		return cannotWrite(path, std::strerror(errno));
+	const std::string self = fmt::format("/proc/self/fd/{}", descriptor);
+	if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) == 0)
+		return {};
+	// A link replaces nothing, so what is there is replaced by a rename.
+	std::error_code code;
+	fs::remove(temporary, code);
+	named = ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, temporary.c_str(), AT_SYMLINK_FOLLOW) == 0;
+	return named ? renameOver(temporary, path) : Status();
+}
+#endif
+
+}  // namespace
+
 Status writeFile(const fs::path& path, std::span<const std::byte> bytes)
 {
 	std::error_code code;
@@ -44,22 +112,13 @@ Status writeFile(const fs::path& path, std::span<const std::byte> bytes)
 	if (code)
 		return badInput("{}: its folder cannot be made: {}", path.string(), code.message());
 	const fs::path temporary = path.string() + ".part";
-	{
-		const File file(std::fopen(temporary.c_str(), "wb"));
-		const bool written = file && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size() && std::fflush(file.get()) == 0;
-		if (!written)
-		{
-			const int reason = errno;
-			fs::remove(temporary, code);
-			return badInput("{}: cannot be written: {}", path.string(), std::strerror(reason));
-		}
-	}
-	fs::rename(temporary, path, code);
-	if (!code)
-		return {};
-	const std::string reason = code.message();
-	fs::remove(temporary, code);
-	return badInput("{}: cannot be written: {}", path.string(), reason);
+	bool named = false;
+#ifdef O_TMPFILE
+	const Status status = writeNameless(path, temporary, bytes, named);
+	if (named)
+		return status;
+#endif
+	return writeBeside(path, temporary, bytes);
 }
 
 Status writeFile(const fs::path& path, std::string_view text)

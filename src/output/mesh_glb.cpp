@@ -105,7 +105,8 @@ public:
 
 	void useExtension(const char* name) { extensions_.insert(name); }
 
-	Status write();
+	// The finished file.
+	Result<std::vector<std::byte>> bytes();
 
 private:
 	std::string path_;
@@ -119,7 +120,7 @@ static void appendWord(std::vector<std::byte>& bytes, uint32_t word)
 	bytes.insert(bytes.end(), data, data + 4);
 }
 
-Status GlbFile::write()
+Result<std::vector<std::byte>> GlbFile::bytes()
 {
 	if (!extensions_.empty())
 		document["extensionsUsed"] = extensions_;
@@ -144,7 +145,7 @@ Status GlbFile::write()
 		appendWord(file, kBinary);
 		file.insert(file.end(), binary_.begin(), binary_.end());
 	}
-	return writeFile(path_, file);
+	return file;
 }
 
 // --- meshes --------------------------------------------------------------------------------------------------------------------------
@@ -308,9 +309,9 @@ static void addCameras(GlbFile& file, const ImportedScene& scene)
 	}
 }
 
-Status writeSceneGlb(const std::filesystem::path& path, const ImportedScene& scene)
+Result<std::vector<std::byte>> encodeSceneGlb(const std::string& name, const ImportedScene& scene)
 {
-	GlbFile file(path.string());
+	GlbFile file(name);
 	addMeshes(file, scene);
 	TRY(addTextures(file, scene));
 	for (const Material& material : scene.materials)
@@ -320,7 +321,13 @@ Status writeSceneGlb(const std::filesystem::path& path, const ImportedScene& sce
 	}
 	addNodes(file, scene);
 	addCameras(file, scene);
-	return file.write();
+	return file.bytes();
+}
+
+Status writeSceneGlb(const std::filesystem::path& path, const ImportedScene& scene)
+{
+	TRY_ASSIGN(const std::vector<std::byte> bytes, encodeSceneGlb(path.string(), scene));
+	return writeFile(path, bytes);
 }
 
 Status writeMeshGlb(const std::filesystem::path& path, const MeshView& mesh)
@@ -336,7 +343,8 @@ Status writeMeshGlb(const std::filesystem::path& path, const MeshView& mesh)
 	primitive["indices"] = file.addAccessor(mesh.indices, "SCALAR", kUnsignedInt, kElementArrayBuffer);
 	file.append("meshes", { { "primitives", json::array({ std::move(primitive) }) } });
 	file.addNode({ { "mesh", 0 } });
-	return file.write();
+	TRY_ASSIGN(const std::vector<std::byte> bytes, file.bytes());
+	return writeFile(path, bytes);
 }
 
 }  // namespace tessera

@@ -12,6 +12,9 @@ namespace tessera
 // a texture transform that KHR_texture_transform cannot say, because it shears); no partial file is left.
 Status writeSceneGlb(const std::filesystem::path& path, const ImportedScene& scene);
 
+// The bytes of that file. `name` stands in messages. Errors: as above.
+Result<std::vector<std::byte>> encodeSceneGlb(const std::string& name, const ImportedScene& scene);
+
 // Writes one plain mesh with one node and a default material.
 // Errors: BadInput (path and reason: more than 4 GiB); no partial file is left.
 Status writeMeshGlb(const std::filesystem::path& path, const MeshView& mesh);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include <cstring>
 #include <map>
 
@@ -343,6 +345,57 @@ TEST(sceneBuild, clusterSizesOutOfRangeAreRefused)
 		ASSERT_FALSE(scene.has_value());
 		EXPECT_EQ(scene.error().code, ExitCode::Usage);
 	}
+}
+
+// meshoptimizer leaves out triangles whose distances overflow in float.
+TEST(sceneBuild, everyTriangleIsKeptAtEveryScale)
+{
+	for (int exponent = -55; exponent <= 58; exponent += 1 + (exponent >= -20 && exponent < 20))
+	{
+		ImportedScene imported = cubeScene(3);
+		for (vec3& p : imported.meshes[0].primitives[0].positions)
+			p *= std::ldexp(1.0f, exponent);
+		imported.materials[0].displacement.reset();
+		const Result<BuiltScene> scene = buildScene(imported);
+		ASSERT_TRUE(scene.has_value()) << scene.error().message;
+		EXPECT_EQ(scene->traits.base_triangles, 108u) << "2^" << exponent;
+	}
+}
+
+TEST(sceneBuild, whatReachesBeyondTheSquaresOfFloatsIsRefused)
+{
+	ImportedScene far = cubeScene(1), tall = cubeScene(1), wide = cubeScene(1);
+	far.instances[0].world[3] = dvec4(1e19, 0, 0, 1);
+	tall.materials[0].displacement->factor = 1e30f;
+	wide.meshes[0].primitives[0].positions[0].x = 1e25f;
+	for (const ImportedScene& imported : { far, tall, wide })
+	{
+		const Result<BuiltScene> scene = buildScene(imported);
+		ASSERT_FALSE(scene.has_value());
+		EXPECT_EQ(scene.error().code, ExitCode::BadInput);
+		EXPECT_NE(scene.error().message.find("2^60"), std::string::npos) << scene.error().message;
+	}
+}
+
+// Triangles around one vertex once took a time that grew with their number's square: minutes for these.
+TEST(sceneBuild, aVertexOfVeryManyTrianglesIsNoSlower)
+{
+	constexpr uint32_t kSpokes = 200'000;
+	ImportedScene imported;
+	Primitive fan;
+	fan.material = addPlain(imported, "plain");
+	addVertex(fan, vec3(0), vec3(0, 0, 1), vec2(0));
+	for (uint32_t i = 0; i < kSpokes; ++i)
+	{
+		const float angle = 6.2831853f * float(i) / kSpokes;
+		addVertex(fan, vec3(std::cos(angle), std::sin(angle), 0), vec3(0, 0, 1), vec2(0));
+	}
+	for (uint32_t i = 0; i < kSpokes; ++i)
+		addTriangle(fan, 0, 1 + i, 1 + (i + 1) % kSpokes);
+	addPlacedMesh(imported, { fan });
+	const auto start = std::chrono::steady_clock::now();
+	EXPECT_EQ(built(imported).traits.base_triangles, kSpokes);
+	EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
 }
 
 }  // namespace tessera::test

@@ -1,6 +1,7 @@
 // The promises of verify on larger scenes and from many cameras: minutes on a software device.
 #include "cpu/program_run.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace tessera::test
@@ -19,15 +20,21 @@ void expectHolds(const std::string& arguments)
 
 }  // namespace
 
-TEST(verifySlow, noBackgroundShinesThroughAClosedMeshFromTwoHundredPlaces)
+TEST(verifySlow, noBackgroundShinesThroughAClosedMeshFromTenThousandPlaces)
 {
-	expectHolds("builtin:planet --raster soft --size 320x180 --rate 4 --cameras 200 --seed 2");
+	expectHolds("builtin:planet --size 160x90 --rate 6 --leaks 10000");
 }
 
 TEST(verifySlow, everyBuiltInSceneHoldsEveryPromise)
 {
 	for (const char* scene : { "planet", "showcase:60", "terrain", "bricks", "instances:200", "quad", "cube", "materials" })
 		expectHolds(std::string("builtin:") + scene + " --size 320x180 --rates 16,4,1.5 --cameras 12");
+}
+
+TEST(verifySlow, everySceneOfTheBenchHoldsEveryPromise)
+{
+	for (const char* scene : { "sphere", "terrain" })
+		expectHolds(fmt::format("'{}/bench/scenes/{}.gltf' --size 320x180 --rates 16,4,1.5 --cameras 12", TESSERA_SOURCE_ROOT, scene));
 }
 
 }  // namespace tessera::test

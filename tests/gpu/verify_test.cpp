@@ -105,14 +105,15 @@ TEST_F(verifyScene, coarsenedFramesAndRoundsAreVerifiedToo)
 	EXPECT_GT(report.frames[0].rate_granted, report.frames[0].rate_wanted);
 }
 
-TEST_F(verifyScene, noBackgroundShinesThroughAClosedDisplacedMesh)
+TEST_F(verifyScene, noBackgroundShinesThroughAClosedDisplacedMeshFromTwoHundredPlaces)
 {
-	const auto scene = gpuScene("planet");
-	verify::Request request = requestFor(*scene, { 6 }, 8);
-	request.paths.resize(1);
-	Report report = runOrDie(request);
-	expectHolds(report, "planet");
-	EXPECT_GT(lookedAt(report, verify::kNoLeaks, "pixels within the silhouette"), 15000u);
+	const ProgramRun run = runTessera("verify builtin:planet --raster soft --size 96x54 --rate 6 --leaks 200 --quiet --json -");
+	EXPECT_EQ(run.exit_code, 0) << run.errors;
+	const json report = json::parse(run.output, nullptr, false);
+	ASSERT_TRUE(report.is_object());
+	const json& looked_at = report["checks"]["no_leaks"]["looked_at"];
+	EXPECT_EQ(looked_at["views"], 200);
+	EXPECT_GT(looked_at["pixels within the silhouette"], 200'000);
 }
 
 // --- faults ----------------------------------------------------------------------------------------------------------------------
@@ -185,8 +186,27 @@ TEST_F(verifyScene, theProgramPrintsATableAndEndsWithZero)
 		EXPECT_NE(run.output.find(check), std::string::npos) << check;
 	EXPECT_EQ(run.output.find("FAULT"), std::string::npos);
 	EXPECT_EQ(runTessera("verify builtin:quad -o marks.jpg --quiet").exit_code, 2);
+	EXPECT_EQ(runTessera("verify --suite mild --quiet").exit_code, 2);
+	EXPECT_EQ(runTessera("verify --suite extreme:no_such_case --quiet").exit_code, 2);
+	EXPECT_EQ(runTessera("verify builtin:quad --suite extreme --quiet").exit_code, 2);
 	EXPECT_EQ(runTessera("verify builtin:quad --inject crack --raster soft --quiet").exit_code, 3);
 	EXPECT_EQ(runTessera("verify builtin:quad --inject sabotage --quiet").exit_code, 2);
+}
+
+TEST_F(verifyScene, theSuiteEndsWithSixWhenACaseDoesNotComeOutAsStated)
+{
+	const ProgramRun right = runTessera("verify --suite extreme-quick:one_triangle --raster soft --usual-way --quiet --json -");
+	EXPECT_EQ(right.exit_code, 0) << right.errors;
+	const json report = json::parse(right.output, nullptr, false);
+	ASSERT_TRUE(report.is_object());
+	EXPECT_EQ(report["cases"][0]["case"], "one_triangle");
+	EXPECT_EQ(report["cases"][0]["passed"], true);
+	EXPECT_EQ(report["cases"][0]["violations"], 0);
+	EXPECT_GT(report["cases"][0]["checks"], 0);
+
+	const ProgramRun wrong = runTessera("verify --suite extreme-quick:one_triangle --raster soft --inject tie --quiet");
+	EXPECT_EQ(wrong.exit_code, 6) << wrong.errors;
+	EXPECT_NE(wrong.output.find("FAILED one_triangle: deterministic"), std::string::npos) << wrong.output;
 }
 
 }  // namespace tessera::test

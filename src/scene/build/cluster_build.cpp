@@ -86,19 +86,31 @@ void bringIntoRange(std::vector<vec3>& positions)
 		p = vec3(std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent));
 }
 
+// A vertex of very many triangles: the searches for a good next triangle go through all of them at every step.
+bool hasHub(const std::vector<uint32_t>& indices, size_t vertex_count)
+{
+	constexpr uint32_t kMost = 4096;
+	std::vector<uint32_t> uses(vertex_count);
+	return std::any_of(indices.begin(), indices.end(), [&](uint32_t vertex) { return ++uses[vertex] > kMost; });
+}
+
 Meshlets cutIntoMeshlets(const std::vector<uint32_t>& indices, std::vector<vec3> positions, const BuildOptions& options)
 {
 	bringIntoRange(positions);
-	std::vector<uint32_t> ordered(indices.size());
-	meshopt_optimizeVertexCache(ordered.data(), indices.data(), indices.size(), positions.size());
+	const bool in_order = hasHub(indices, positions.size());
+	std::vector<uint32_t> ordered = indices;
+	if (!in_order)
+		meshopt_optimizeVertexCache(ordered.data(), indices.data(), indices.size(), positions.size());
 	Meshlets result;
 	const size_t most = meshopt_buildMeshletsBound(indices.size(), options.cluster_vertices, options.cluster_triangles);
 	result.meshlets.resize(most);
 	result.vertices.resize(most * options.cluster_vertices);
 	result.triangles.resize(most * options.cluster_triangles * 3);
-	const size_t count =
-		meshopt_buildMeshlets(result.meshlets.data(), result.vertices.data(), result.triangles.data(), ordered.data(), ordered.size(),
-							  &positions[0].x, positions.size(), sizeof(vec3), options.cluster_vertices, options.cluster_triangles, kConeWeight);
+	const size_t count = in_order ? meshopt_buildMeshletsScan(result.meshlets.data(), result.vertices.data(), result.triangles.data(), ordered.data(),
+															  ordered.size(), positions.size(), options.cluster_vertices, options.cluster_triangles)
+								  : meshopt_buildMeshlets(result.meshlets.data(), result.vertices.data(), result.triangles.data(), ordered.data(),
+														  ordered.size(), &positions[0].x, positions.size(), sizeof(vec3), options.cluster_vertices,
+														  options.cluster_triangles, kConeWeight);
 	result.meshlets.resize(count);
 	return result;
 }

@@ -89,14 +89,64 @@ void addSizes(std::vector<Case>& cases)
 	cases.push_back(node);
 }
 
+constexpr dvec3 kFar = { 1e7, -1e7, 1e7 };
+
+// What a camera sees of a scene, `at` from the origin as the scene is.
+Result<Capture> seenFrom(const SuiteDevice& suite, const Case& one, const BuiltScene& scene, Camera camera, dvec3 at)
+{
+	const reference::HostScene truth(scene, suite.table);
+	RenderOptions options = one.options;
+	options.rate = one.rates.front();
+	options.width_px = one.width_px;
+	options.height_px = one.height_px;
+	options.raster = suite.paths.front();
+	TRY_ASSIGN(const auto source, FrameSource::create(suite.device, truth, scene, suite.table, options, false, {}, suite.seed));
+	camera.eye += at;
+	camera.target += at;
+	return source->capture(camera, options.rate);
+}
+
+// Does the model far away look as it does at the origin? The share of pixels that see something else.
+Result<Measured> compareWithOrigin(const SuiteDevice& suite, const Case& one, const BuiltScene& far)
+{
+	BuiltScene near = far;
+	near.instances[0].world = dmat4(1);
+	near.world_low -= kFar;
+	near.world_high -= kFar;
+	Measured measured;
+	for (const NamedCamera& camera : randomCameras(near, suite.seed, 6))
+	{
+		TRY_ASSIGN(const Capture here, seenFrom(suite, one, near, camera.camera, dvec3(0)));
+		TRY_ASSIGN(const Capture there, seenFrom(suite, one, far, camera.camera, kFar));
+		uint64_t differing = 0;
+		for (size_t i = 0; i < here.visible.pixels.size(); ++i)
+			differing += here.visible.pixels[i].identity != there.visible.pixels[i].identity;
+		measured.checks += 2;
+		measured.worst = std::max(measured.worst, double(differing) / double(here.visible.pixels.size()));
+		const auto a = double(here.result.counts.micro_triangles), b = double(there.result.counts.micro_triangles);
+		if (std::abs(a - b) <= 1e-3 * a)
+			continue;
+		++measured.violations;
+		measured.what = fmt::format("camera {}: {} micro-triangles at the origin, {} far from it", camera.name, a, b);
+	}
+	return measured;
+}
+
 void addDistances(std::vector<Case>& cases)
 {
 	Case far = { "scale", "far_1e7", "a ball of radius 1 that its node puts 1e7 units from the origin, with cameras beside it" };
 	far.scene = [] {
-		return placed(parts::ball(2), { scaled(dvec3(1), dvec3(1e7, -1e7, 1e7)) });
+		return placed(parts::ball(2), { scaled(dvec3(1), kFar) });
 	};
 	far.expected = within("error, pixels", 0.01);
 	cases.push_back(far);
+
+	Case same = far;
+	same.name = "far_1e7_as_at_origin";
+	same.what = "the same, compared with the model at the origin: counts within 0.1 %";
+	same.expected = within("share of pixels that see something else", 0.005);
+	same.measure = compareWithOrigin;
+	cases.push_back(same);
 
 	Case baked = { "scale", "far_1e7_baked", "a ball of radius 1000 whose positions themselves lie 1e7 units from the origin" };
 	baked.scene = [] {

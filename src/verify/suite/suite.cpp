@@ -1,6 +1,5 @@
 #include "verify/suite/suite.h"
 
-#include "base/file.h"
 #include "base/log.h"
 #include "output/mesh_glb.h"
 #include "scene/build.h"
@@ -11,15 +10,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 
 namespace tessera::verify
 {
 
 namespace
 {
-
-namespace fs = std::filesystem;
 
 std::vector<Case> allCases()
 {
@@ -32,21 +28,6 @@ std::vector<Case> allCases()
 	addAnimationCases(cases);
 	return cases;
 }
-
-// A folder that goes away.
-struct Scratch
-{
-	fs::path path = fs::temp_directory_path() / fmt::format("tessera_suite_{}", ::getpid());
-
-	Scratch() { fs::create_directories(path); }
-	~Scratch()
-	{
-		std::error_code code;
-		fs::remove_all(path, code);
-	}
-	Scratch(const Scratch&) = delete;
-	Scratch& operator=(const Scratch&) = delete;
-};
 
 uint64_t hostBytes()
 {
@@ -91,18 +72,17 @@ std::string inWords(const Expected& expected)
 	}
 }
 
-// The scene as a file in `folder`, damaged as the case says.
-Status writeCase(const Case& one, const fs::path& path)
+// The scene as a .glb file, damaged as the case says.
+Result<std::vector<std::byte>> fileOf(const Case& one)
 {
-	TRY(writeSceneGlb(path, one.scene()));
+	TRY_ASSIGN(std::vector<std::byte> file, encodeSceneGlb(one.name, one.scene()));
 	if (!one.damage)
-		return {};
-	TRY_ASSIGN(std::vector<std::byte> file, readFile(path));
+		return file;
 	const std::vector<std::byte> before = file;
 	one.damage(file);
 	if (file == before)
 		return fail(ExitCode::CheckFailed, "{}: nothing of the file was changed", one.name);
-	return writeFile(path, file);
+	return file;
 }
 
 class CaseRunner
@@ -119,10 +99,10 @@ public:
 	}
 
 	// Errors end the suite.
-	Result<SuiteLine> run(const fs::path& folder)
+	Result<SuiteLine> run()
 	{
 		const auto start = std::chrono::steady_clock::now();
-		const Status status = load(folder / "case.glb");
+		const Status status = load();
 		if (!status && status.error().code == ExitCode::DeviceLost)
 			return tl::unexpected(status.error());
 		judge(status);
@@ -132,12 +112,11 @@ public:
 	}
 
 private:
-	Status load(const fs::path& path)
+	Status load()
 	{
-		TRY(writeCase(case_, path));
-		TRY_ASSIGN(const ImportedScene imported, importGltf(path));
+		TRY_ASSIGN(std::vector<std::byte> file, fileOf(case_));
+		TRY_ASSIGN(const ImportedScene imported, importGltf(case_.name, std::move(file)));
 		TRY_ASSIGN(run_.scene, buildScene(imported));
-		run_.scene.path = case_.name;
 		return case_.measure ? measure() : verifyScene();
 	}
 
@@ -272,7 +251,6 @@ Result<SuiteReport> runSuite(const SuiteRequest& request)
 	if (cases.empty())
 		return fail(ExitCode::Usage, "--suite: no case or family is called {}; families are {}", request.only, fmt::join(suiteFamilies(), ", "));
 	const SuiteDevice suite = { *request.device, *request.table, request.paths, request.seed, request.usual_way, request.fault };
-	const Scratch scratch;
 	SuiteReport report = { request.quick ? "extreme-quick" : "extreme", {} };
 	for (const Case& one : cases)
 	{
@@ -282,7 +260,7 @@ Result<SuiteReport> runSuite(const SuiteRequest& request)
 			report.lines.push_back({ one.family, one.name, one.what, reason });
 			continue;
 		}
-		TRY_ASSIGN(SuiteLine line, CaseRunner(one, suite).run(scratch.path));
+		TRY_ASSIGN(SuiteLine line, CaseRunner(one, suite).run());
 		if (!line.passed)
 			logInfo("case {} failed: {}", one.name, line.wrong);
 		report.lines.push_back(std::move(line));

@@ -43,8 +43,8 @@ struct SuiteReport
 	size_t skipped() const;
 };
 
-// Runs the cases one after another; says how far it is. Files go into a folder of its own below the system's temporary one, which is removed.
-// Errors: Usage (no case is called `only`), DeviceLost, or files that cannot be written. A case that fails is a line, no error.
+// Runs the cases one after another; says how far it is. Files stay in memory. Errors: Usage (no case is called `only`), DeviceLost. A case
+// that fails is a line, no error.
 Result<SuiteReport> runSuite(const SuiteRequest& request);
 
 // Families of cases, in the order in which they are run.
