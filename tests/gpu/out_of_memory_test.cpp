@@ -1,7 +1,7 @@
 // Out of memory on the device: one line, whichever buffer it is that does not fit.
 #include "gpu_test.h"
 
-#include "base/check.h"
+#include "frame/frame_dump.h"
 #include "pipeline/passes.h"
 
 namespace tessera::test
