@@ -107,13 +107,13 @@ TEST_F(verifyScene, coarsenedFramesAndRoundsAreVerifiedToo)
 
 TEST_F(verifyScene, noBackgroundShinesThroughAClosedDisplacedMeshFromTwoHundredPlaces)
 {
-	const ProgramRun run = runTessera("verify builtin:planet --raster soft --size 96x54 --rate 6 --leaks 200 --quiet --json -");
+	const ProgramRun run = runTessera("verify builtin:cube --raster soft --size 64x36 --rate 8 --leaks 200 --quiet --json -");
 	EXPECT_EQ(run.exit_code, 0) << run.errors;
 	const json report = json::parse(run.output, nullptr, false);
 	ASSERT_TRUE(report.is_object());
 	const json& looked_at = report["checks"]["no_leaks"]["looked_at"];
 	EXPECT_EQ(looked_at["views"], 200);
-	EXPECT_GT(looked_at["pixels within the silhouette"], 200'000);
+	EXPECT_GT(looked_at["pixels within the silhouette"], 50'000);
 }
 
 // --- faults ----------------------------------------------------------------------------------------------------------------------
@@ -195,18 +195,18 @@ TEST_F(verifyScene, theProgramPrintsATableAndEndsWithZero)
 
 TEST_F(verifyScene, theSuiteEndsWithSixWhenACaseDoesNotComeOutAsStated)
 {
-	const ProgramRun right = runTessera("verify --suite extreme-quick:one_triangle --raster soft --usual-way --quiet --json -");
+	const ProgramRun right = runTessera("verify --suite extreme-quick:picture_33x17 --raster soft --usual-way --quiet --json -");
 	EXPECT_EQ(right.exit_code, 0) << right.errors;
 	const json report = json::parse(right.output, nullptr, false);
 	ASSERT_TRUE(report.is_object());
-	EXPECT_EQ(report["cases"][0]["case"], "one_triangle");
+	EXPECT_EQ(report["cases"][0]["case"], "picture_33x17");
 	EXPECT_EQ(report["cases"][0]["passed"], true);
 	EXPECT_EQ(report["cases"][0]["violations"], 0);
 	EXPECT_GT(report["cases"][0]["checks"], 0);
 
-	const ProgramRun wrong = runTessera("verify --suite extreme-quick:one_triangle --raster soft --inject tie --quiet");
+	const ProgramRun wrong = runTessera("verify --suite extreme-quick:picture_33x17 --raster soft --inject tie --quiet");
 	EXPECT_EQ(wrong.exit_code, 6) << wrong.errors;
-	EXPECT_NE(wrong.output.find("FAILED one_triangle: deterministic"), std::string::npos) << wrong.output;
+	EXPECT_NE(wrong.output.find("FAILED picture_33x17: deterministic"), std::string::npos) << wrong.output;
 }
 
 }  // namespace tessera::test
