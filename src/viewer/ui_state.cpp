@@ -128,6 +128,7 @@ ordered_json uiState(const Session& session, const Ui& ui, uint64_t written)
 	json["vsync"] = session.vsync;
 	json["full_screen"] = session.is_full_screen;
 	json["asks_for_path"] = session.asks_for_path;
+	json["is_typing"] = ImGui::GetIO().WantTextInput;  // a text field has the keyboard
 	json["open_panels"] = ordered_json::array();
 	for (const auto& [name, open] : session.open_panels)
 		if (open)

@@ -35,13 +35,17 @@ class Viewer:
 
     def __init__(self, program, arguments, folder, display, pictures=None):
         self.environment = dict(os.environ, DISPLAY=display.name)
+        # A library to load into the viewer, such as liblsan.so: it makes leaks the exit code.
+        environment = dict(self.environment)
+        if "TESSERA_VIEWER_PRELOAD" in os.environ:
+            environment["LD_PRELOAD"] = os.environ["TESSERA_VIEWER_PRELOAD"]
         self.folder, self.pictures = folder, pictures
         self.state_file = os.path.join(folder, "ui_state.json")
         self.log_file = os.path.join(folder, "viewer.log")
         self.written = 0
         self.pause = 0.35  # long enough for two frames of the window: it must see the mouse rest before it sees a click
         with open(self.log_file, "w") as log:
-            self.process = subprocess.Popen([program, "view", *arguments, "--ui-state", self.state_file], cwd=folder, env=self.environment,
+            self.process = subprocess.Popen([program, "view", *arguments, "--ui-state", self.state_file], cwd=folder, env=environment,
                                             stdout=log, stderr=log)
 
     def log(self):

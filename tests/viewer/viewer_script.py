@@ -28,7 +28,7 @@ def same(a, b):
 
 def open_scene(viewer, path):
     viewer.keys("ctrl", "o")
-    viewer.wait("the open field", lambda s: s["asks_for_path"] and "open.path" in s["widgets"])
+    viewer.wait("the open field", lambda s: s["asks_for_path"] and s["is_typing"])
     viewer.clear_field()
     viewer.type(path)
     viewer.key("Return")
@@ -44,7 +44,7 @@ def start_without_argument(viewer):
 
 def open_the_sphere(viewer, root):
     viewer.keys("ctrl", "o")
-    viewer.wait("the open field", lambda s: "open.path" in s["widgets"])
+    viewer.wait("the open field", lambda s: s["asks_for_path"] and s["is_typing"])
     viewer.type(os.path.join(root, "bench/scenes/sphere.g"))
     viewer.key("Tab")  # completes the name
     viewer.picture("02_open")
@@ -122,6 +122,7 @@ def overflow_a_list(viewer):
     viewer.wait("the panel Limits", lambda s: "capacity" in s["widgets"])
     before = viewer.settled()
     viewer.click("capacity")
+    viewer.wait("the field of capacities", lambda s: s["is_typing"])
     viewer.type("part_triangles=500")
     viewer.key("Return")
     state = viewer.wait("a coarser frame", lambda s: s["frame"]["coarsening"] > 0)
