@@ -2,15 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
+
 namespace tessera::verify
 {
 
 namespace
 {
 
-constexpr double kStep_px = 1.0 / 16;
-constexpr double kSamples[5][2] = { { 0, 0 }, { kStep_px, kStep_px }, { kStep_px, -kStep_px }, { -kStep_px, kStep_px }, { -kStep_px, -kStep_px } };
-constexpr uint8_t kAll = 31;
+// Where single-sided sheets are seen along their own plane, two of them may cover a pixel's points from both sides of a gap through which the
+// background rightly shows. Rasterisers round corners to 1/256 pixel: points from half as far as that on tell such a gap from a leak.
+constexpr double kRings_px[] = { 1.0 / 512, 1.0 / 256, 1.0 / 128, 1.0 / 16 };
+constexpr uint32_t kSamples = 1 + 4 * std::size(kRings_px);
+constexpr uint32_t kAll = (1u << kSamples) - 1;
+
+// Sample 0 is the pixel's centre, four lie around it on the diagonals at every distance.
+ScreenPoint sample(uint32_t index, uint32_t x, uint32_t y)
+{
+	if (index == 0)
+		return { x + 0.5, y + 0.5, 0 };
+	const double step = kRings_px[(index - 1) / 4];
+	return { x + 0.5 + (index & 1 ? step : -step), y + 0.5 + (index & 2 ? step : -step), 0 };
+}
 
 // Side of the line from a to b on which (x, y) lies. From b to a it gives exactly the opposite.
 double sideOf(const ScreenPoint& a, const ScreenPoint& b, double x, double y)
@@ -28,16 +41,16 @@ bool covers(const std::array<ScreenPoint, 3>& p, double x, double y)
 	return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
 }
 
-void paint(const std::array<ScreenPoint, 3>& p, uint32_t width, uint32_t height, std::vector<uint8_t>& covered)
+void paint(const std::array<ScreenPoint, 3>& p, uint32_t width, uint32_t height, std::vector<uint32_t>& covered)
 {
 	const PixelBox box = pixelBox(p, width, height);
 	for (uint32_t y = box.y0; y < box.y1; ++y)
 		for (uint32_t x = box.x0; x < box.x1; ++x)
 		{
-			uint8_t& samples = covered[size_t(y) * width + x];
-			for (uint32_t i = 0; i < 5 && samples != kAll; ++i)
-				if (covers(p, x + 0.5 + kSamples[i][0], y + 0.5 + kSamples[i][1]))
-					samples |= uint8_t(1u << i);
+			uint32_t& samples = covered[size_t(y) * width + x];
+			for (uint32_t i = 0; i < kSamples && samples != kAll; ++i)
+				if (const ScreenPoint at = sample(i, x, y); covers(p, at.x, at.y))
+					samples |= 1u << i;
 		}
 }
 
@@ -45,7 +58,7 @@ void paint(const std::array<ScreenPoint, 3>& p, uint32_t width, uint32_t height,
 
 CheckResult checkLeaks(const Screen& screen, std::span<const MicroTriangle> set, const VisiblePicture& picture)
 {
-	std::vector<uint8_t> covered(size_t(screen.width()) * screen.height());
+	std::vector<uint32_t> covered(size_t(screen.width()) * screen.height());
 	for (const MicroTriangle& t : set)
 	{
 		std::array<ScreenPoint, 3> points;
