@@ -42,10 +42,11 @@ def start_without_argument(viewer):
     viewer.picture("01_start")
 
 
-def open_the_sphere(viewer, root):
+def open_the_sphere(viewer, root, folder):
+    shutil.copytree(os.path.join(root, "bench/scenes"), os.path.join(folder, "scenes"))
     viewer.keys("ctrl", "o")
     viewer.wait("the open field", lambda s: s["asks_for_path"] and s["is_typing"])
-    viewer.type(os.path.join(root, "bench/scenes/sphere.g"))
+    viewer.type("scenes/sphere.g")  # from the folder that the viewer runs in
     viewer.key("Tab")  # completes the name
     viewer.picture("02_open")
     viewer.key("Return")
@@ -198,7 +199,7 @@ def resize(viewer):
     return state
 
 
-def same_picture_as_render(viewer, program, root, folder):
+def same_picture_as_render(viewer, program, folder):
     """Without panels the window is the picture: captured, and drawn by `tessera render` as the copied command says."""
     viewer.click("panel.View")
     viewer.choose("view", "shaded")
@@ -215,7 +216,7 @@ def same_picture_as_render(viewer, program, root, folder):
     viewer.run("import", "-window", "root", "-crop", "1280x720+0+0", "+repage", captured)
     words = shlex.split(state["command_line"])
     assert words[:2] == ["tessera", "render"]
-    subprocess.run([program, *words[1:], "-o", drawn, "--quiet"], check=True, cwd=root)
+    subprocess.run([program, *words[1:], "-o", drawn, "--quiet"], check=True, cwd=folder)
     compared = subprocess.run(["compare", "-metric", "AE", captured, drawn, "null:"], capture_output=True, text=True)
     assert compared.returncode == 0 and compared.stderr.strip() == "0", "%s pixels differ: %s" % (compared.stderr, state["command_line"])
     viewer.key("F1")
@@ -249,9 +250,9 @@ def main():
     try:
         viewer = Viewer(program, ["--rate", "8", "--validate", "--shaders", shaders, "--settings", settings], folder, display, pictures)
         steps = [
-            (start_without_argument,), (open_the_sphere, root), (change_the_rate,), (switch_views,), (freeze_and_fly,), (overflow_a_list,),
+            (start_without_argument,), (open_the_sphere, root, folder), (change_the_rate,), (switch_views,), (freeze_and_fly,), (overflow_a_list,),
             (pick_a_triangle,), (reload_a_broken_shader, shaders), (open_a_broken_file, folder), (resize,),
-            (same_picture_as_render, program, root, folder),
+            (same_picture_as_render, program, folder),
         ]
         for step, *arguments in steps:
             start = time.time()
