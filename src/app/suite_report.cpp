@@ -21,7 +21,7 @@ std::string shortNumber(double value)
 
 std::string row(const SuiteLine& line, bool usual_way)
 {
-	std::string text = fmt::format("{:<12}{:<30}", line.family, line.name);
+	std::string text = fmt::format("{:<14}{:<30}", line.family, line.name);
 	if (!line.skipped.empty())
 		return text + "skipped: " + line.skipped + "\n";
 	text += fmt::format("{:>7}{:>11}{:>10}{:>10}  {:<7}{:>9}{:>9}{:>8.2f}", line.checks, line.violations, shortNumber(line.worst),
@@ -76,7 +76,7 @@ ordered_json lineJson(const SuiteLine& line)
 
 std::string suiteTable(const verify::SuiteReport& report, const Device& device, bool usual_way)
 {
-	std::string text = fmt::format("suite {} on {}\n\n{:<12}{:<30}{:>7}{:>11}{:>10}{:>10}  {:<7}{:>9}{:>9}{:>8}", report.suite, device.name, "family",
+	std::string text = fmt::format("suite {} on {}\n\n{:<14}{:<30}{:>7}{:>11}{:>10}{:>10}  {:<7}{:>9}{:>9}{:>8}", report.suite, device.name, "family",
 								   "case", "checks", "violations", "worst", "bound", "passed", "ulp", "px", "s");
 	text += usual_way ? fmt::format("{:>9}{:>12}\n", "cracks", "lost") : "\n";
 	for (const SuiteLine& line : report.lines)
