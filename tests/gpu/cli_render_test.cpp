@@ -157,7 +157,7 @@ TEST_F(programWithDevice, aCameraPathGivesThePicturesOfItsCameras)
 	for (const auto& [name, eye] : expected)
 	{
 		const std::string one = (folder / "one.png").string();
-		ASSERT_EQ(runTessera(scene + "--fov 50 --target 0,0,0 --eye " + eye + " -o " + one).exit_code, 0);
+		ASSERT_EQ(runTessera(scene + "--fov 50 --target 0,0,0 --up 0,1,0 --eye " + eye + " -o " + one).exit_code, 0);
 		EXPECT_FALSE(textOf(one).empty());
 		EXPECT_EQ(textOf(folder / name) == textOf(one), true) << name;
 	}
