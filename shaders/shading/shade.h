@@ -31,8 +31,8 @@ struct ShadeArgs
 	GPU_PTR(uint) picture;  // RGBA8, sRGB-encoded
 	GPU_PTR(FrameCounts) counts;
 	uint64_t visibility;  // address of a 64-bit word per pixel; 0 when attachments hold depth and payload
-	uint view_mode;  // VIEW_*
-	uint rounds;  // round | round_count << 16
+	uint view_mode;       // VIEW_*
+	uint rounds;          // round | round_count << 16
 };
 SHARED_LAYOUT(ShadeArgs, 112, rounds, 108)
 

@@ -93,7 +93,8 @@ void draw(Ui& ui, Session& session)
 	drawFields(ui, session);
 	session.requests.reset_camera |= ui.button("camera.reset", "reset", "back to where the scene was opened (Home)");
 	ImGui::SameLine();
-	session.requests.frame_selection |= ui.button("camera.frame", "frame", "bring the instance that was picked last, or the whole scene, into view (F)");
+	session.requests.frame_selection |=
+		ui.button("camera.frame", "frame", "bring the instance that was picked last, or the whole scene, into view (F)");
 	ImGui::SameLine();
 	session.requests.copy_command |=
 		ui.button("camera.copy", "copy command", "put the `tessera render` command of this picture on the clipboard and into the log (Ctrl+C)");
