@@ -14,19 +14,12 @@ float pixelHeightLevel(vec3 relative, Placement placement, float density, uint l
 }
 
 // Height and its change per texel of one level: bilinear blends of texels and of their central differences, so that the
-// gradient has no steps at texel borders. Twelve texels.
+// gradient has no steps at texel borders. Twelve texels, in four footprints.
 struct HeightSlope
 {
 	float height;
 	vec2 slope;
 };
-
-// Two texels beyond the border at most; without the division that a remainder takes.
-int repeated(int texel, int size)
-{
-	texel = texel < 0 ? texel + size : texel;
-	return texel >= size ? texel - size : texel;
-}
 
 HeightSlope levelSlope(HeightMap map, uint first, vec2 folded, uint level)
 {
@@ -34,19 +27,13 @@ HeightSlope levelSlope(HeightMap map, uint first, vec2 folded, uint level)
 	vec2 texel = folded * vec2(size) - 0.5;
 	ivec2 base = ivec2(floor(texel));
 	vec2 blend = texel - vec2(base);
-	uint columns[4], rows[4];
-	for (int i = 0; i < 4; ++i)
-	{
-		int x = base.x - 1 + i, y = base.y - 1 + i;
-		columns[i] = wrapTexel(repeats(map.wrap_u) ? repeated(x, size.x) : x, uint(size.x), map.wrap_u);
-		rows[i] = first + uint(size.x) * wrapTexel(repeats(map.wrap_v) ? repeated(y, size.y) : y, uint(size.y), map.wrap_v);
-	}
-	vec4 upper = vec4(texelHeight(map, rows[1] + columns[0]), texelHeight(map, rows[1] + columns[1]), texelHeight(map, rows[1] + columns[2]),
-	                  texelHeight(map, rows[1] + columns[3]));
-	vec4 lower = vec4(texelHeight(map, rows[2] + columns[0]), texelHeight(map, rows[2] + columns[1]), texelHeight(map, rows[2] + columns[2]),
-	                  texelHeight(map, rows[2] + columns[3]));
-	vec2 above = vec2(texelHeight(map, rows[0] + columns[1]), texelHeight(map, rows[0] + columns[2]));
-	vec2 below = vec2(texelHeight(map, rows[3] + columns[1]), texelHeight(map, rows[3] + columns[2]));
+	Footprint left = footprintAt(map, first, base.x - 1, base.y, level);
+	Footprint right = footprintAt(map, first, base.x + 1, base.y, level);
+	Footprint top = footprintAt(map, first, base.x, base.y - 1, level);
+	Footprint bottom = footprintAt(map, first, base.x, base.y + 1, level);
+	vec4 upper = vec4(left.h00, left.h10, right.h00, right.h10);
+	vec4 lower = vec4(left.h01, left.h11, right.h01, right.h11);
+	vec2 above = vec2(top.h00, top.h10), below = vec2(bottom.h01, bottom.h11);
 	HeightSlope result;
 	result.height = mix(mix(upper.y, upper.z, blend.x), mix(lower.y, lower.z, blend.x), blend.y);
 	vec2 across = mix(vec2(upper.z - upper.x, upper.w - upper.y), vec2(lower.z - lower.x, lower.w - lower.y), blend.y);

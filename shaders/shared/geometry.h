@@ -62,9 +62,11 @@ SHARED_FN uint packBaseTriangle(uint v0, uint v1, uint v2, uint edge_flags, uint
 	return v0 | (v1 << 7) | (v2 << 14) | (edge_flags << 21) | (seam_flags << 24);
 }
 
-// A height map with its mips, box-filtered at load; texels of all levels one after another.
+// A height map with its mips, box-filtered at load; texels of all levels one after another. Where memory allows it, devices keep for every texel
+// its footprint instead, the four texels that a bilinear read takes, wrapped: one read of 4, 8 or 16 bytes (src/frame/height_footprints.h).
 #define UNIFORM_HEIGHT_MAPS 64  // up to this many are read from a uniform buffer
 #define MAX_HEIGHT_LEVELS 16
+#define FOOTPRINT_BORDER 3u  // footprints in a row beside one per texel: from texel -2 on, to that of the texel after the last
 #define HEIGHT_U8 0u
 #define HEIGHT_U16 1u
 #define HEIGHT_F32 2u
@@ -73,7 +75,7 @@ SHARED_FN uint packBaseTriangle(uint v0, uint v1, uint v2, uint edge_flags, uint
 #define WRAP_MIRROR 2u
 struct HeightMap
 {
-	GPU_PTR(uint) texels;  // packed little endian: 4 x U8, 2 x U16 or 1 x F32 per word
+	GPU_PTR(uint) texels;  // packed little endian: 4 x U8, 2 x U16 or 1 x F32 per word; or footprints, row after row
 	uint width;            // of level 0
 	uint height;
 	uint level_count;  // 1..15
@@ -82,7 +84,7 @@ struct HeightMap
 	uint wrap_v;
 	float factor;  // displacement = (height * factor + offset) * scale, mesh units
 	float offset;
-	uint level_first[MAX_HEIGHT_LEVELS];  // first texel of each level
+	uint level_first[MAX_HEIGHT_LEVELS];  // first texel, or footprint, of each level
 };
 SHARED_LAYOUT(HeightMap, 104, level_first, 40)
 

@@ -6,12 +6,20 @@
 
 SHARED_BEGIN
 
-// Two neighbouring texels along one axis, and the weight of the second.
-struct TexelPair
+// Where a coordinate falls between the centres of two neighbouring texels.
+struct TexelPlace
 {
-	uint first;
-	uint second;
-	float blend;
+	int first;    // -1 to size - 1
+	float blend;  // weight of the second
+};
+
+// A texel, its right neighbour, and the two below, wrapped.
+struct Footprint
+{
+	float h00;
+	float h10;
+	float h01;
+	float h11;
 };
 
 SHARED_FN bool repeats(uint wrap)
@@ -40,44 +48,107 @@ SHARED_FN precise float foldCoordinate(float coordinate, uint wrap)
 	return within > 1.0f ? mirrored : within;
 }
 
+// The texel at -2 to size + 1. Without the division that a remainder takes.
 SHARED_FN uint wrapTexel(int texel, uint size, uint wrap)
 {
-	bool repeating = repeats(wrap);
-	if (texel < 0)
-		return repeating ? size - 1u : 0u;
-	if (uint(texel) >= size)
-		return repeating ? 0u : size - 1u;
-	return uint(texel);
+	if (!repeats(wrap))
+		return uint(min(max(texel, 0), int(size) - 1));
+	int wrapped = texel < 0 ? texel + int(size) : texel;
+	wrapped = wrapped < 0 ? wrapped + int(size) : wrapped;
+	wrapped = wrapped >= int(size) ? wrapped - int(size) : wrapped;
+	return uint(wrapped >= int(size) ? wrapped - int(size) : wrapped);
 }
 
-SHARED_FN TexelPair texelPair(float folded, uint size, uint wrap)
+SHARED_FN TexelPlace texelPlace(float folded, uint size)
 {
 	precise float scaled = folded * float(size);
 	precise float texel = scaled - 0.5f;
 	precise float base = floor(texel);
 	precise float blend = texel - base;
-	TexelPair pair;
-	pair.first = wrapTexel(int(base), size, wrap);
-	pair.second = wrapTexel(int(base) + 1, size, wrap);
-	pair.blend = blend;
-	return pair;
+	TexelPlace place;
+	place.first = int(base);
+	place.blend = blend;
+	return place;
+}
+
+SHARED_FN bool is16Bit(HeightMap map)
+{
+	return HAS_HEIGHT_U16 && (!(HAS_HEIGHT_U8 || HAS_HEIGHT_F32) || map.format == HEIGHT_U16);
+}
+SHARED_FN bool is8Bit(HeightMap map)
+{
+	return HAS_HEIGHT_U8 && (!HAS_HEIGHT_F32 || map.format == HEIGHT_U8);
+}
+
+// The lowest bits of a word.
+SHARED_FN precise float height16(uint word)
+{
+	precise float value = float(word & 0xffffu) * 1.52590218966964e-05f;
+	return value;
+}
+SHARED_FN precise float height8(uint word)
+{
+	precise float value = float(word & 0xffu) * 3.92156862745098e-03f;
+	return value;
 }
 
 SHARED_FN precise float texelHeight(HeightMap map, uint texel)
 {
-	if (HAS_HEIGHT_U16 && (!(HAS_HEIGHT_U8 || HAS_HEIGHT_F32) || map.format == HEIGHT_U16))
-	{
-		uint word = AT(uint, map.texels, texel >> 1);
-		precise float value16 = float((word >> ((texel & 1u) * 16u)) & 0xffffu) * 1.52590218966964e-05f;
-		return value16;
-	}
-	if (HAS_HEIGHT_U8 && (!HAS_HEIGHT_F32 || map.format == HEIGHT_U8))
-	{
-		uint word = AT(uint, map.texels, texel >> 2);
-		precise float value8 = float((word >> ((texel & 3u) * 8u)) & 0xffu) * 3.92156862745098e-03f;
-		return value8;
-	}
+	if (is16Bit(map))
+		return height16(AT(uint, map.texels, texel >> 1) >> ((texel & 1u) * 16u));
+	if (is8Bit(map))
+		return height8(AT(uint, map.texels, texel >> 2) >> ((texel & 3u) * 8u));
 	return uintBitsToFloat(AT(uint, map.texels, texel));
+}
+
+// Where footprints are kept, those of a level are rows of its width + FOOTPRINT_BORDER, the first one that of texel (-2, -2).
+SHARED_FN Footprint keptFootprint(HeightMap map, uint index)
+{
+	Footprint result;
+	if (is16Bit(map))
+	{
+		uint upper = AT(uint, map.texels, 2u * index);
+		uint lower = AT(uint, map.texels, 2u * index + 1u);
+		result.h00 = height16(upper);
+		result.h10 = height16(upper >> 16);
+		result.h01 = height16(lower);
+		result.h11 = height16(lower >> 16);
+	}
+	else if (is8Bit(map))
+	{
+		uint word = AT(uint, map.texels, index);
+		result.h00 = height8(word);
+		result.h10 = height8(word >> 8);
+		result.h01 = height8(word >> 16);
+		result.h11 = height8(word >> 24);
+	}
+	else
+	{
+		result.h00 = uintBitsToFloat(AT(uint, map.texels, 4u * index));
+		result.h10 = uintBitsToFloat(AT(uint, map.texels, 4u * index + 1u));
+		result.h01 = uintBitsToFloat(AT(uint, map.texels, 4u * index + 2u));
+		result.h11 = uintBitsToFloat(AT(uint, map.texels, 4u * index + 3u));
+	}
+	return result;
+}
+
+// The footprint whose first texel is (x, y), each -2 to the size of level `level`, which begins at `first`.
+SHARED_FN Footprint footprintAt(HeightMap map, uint first, int x, int y, uint level)
+{
+	uint width = max(map.width >> level, 1u);
+	uint height = max(map.height >> level, 1u);
+	if (HAS_HEIGHT_FOOTPRINTS)
+		return keptFootprint(map, first + min(uint(y + 2), height + 2u) * (width + FOOTPRINT_BORDER) + min(uint(x + 2), width + 2u));
+	uint left = wrapTexel(x, width, map.wrap_u);
+	uint right = wrapTexel(x + 1, width, map.wrap_u);
+	uint upper = first + width * wrapTexel(y, height, map.wrap_v);
+	uint lower = first + width * wrapTexel(y + 1, height, map.wrap_v);
+	Footprint result;
+	result.h00 = texelHeight(map, upper + left);
+	result.h10 = texelHeight(map, upper + right);
+	result.h01 = texelHeight(map, lower + left);
+	result.h11 = texelHeight(map, lower + right);
+	return result;
 }
 
 SHARED_FN precise float blendHeights(float a, float b, float weight)
@@ -91,18 +162,11 @@ SHARED_FN precise float blendHeights(float a, float b, float weight)
 // Height at folded coordinates on one mip level: bilinear.
 SHARED_FN precise float levelHeight(HeightMap map, uint first, float u, float v, uint level)
 {
-	uint width = max(map.width >> level, 1u);
-	uint height = max(map.height >> level, 1u);
-	TexelPair column = texelPair(u, width, map.wrap_u);
-	TexelPair row = texelPair(v, height, map.wrap_v);
-	uint row_first = first + row.first * width;
-	uint row_second = first + row.second * width;
-	float h00 = texelHeight(map, row_first + column.first);
-	float h10 = texelHeight(map, row_first + column.second);
-	float h01 = texelHeight(map, row_second + column.first);
-	float h11 = texelHeight(map, row_second + column.second);
-	precise float top = blendHeights(h00, h10, column.blend);
-	precise float bottom = blendHeights(h01, h11, column.blend);
+	TexelPlace column = texelPlace(u, max(map.width >> level, 1u));
+	TexelPlace row = texelPlace(v, max(map.height >> level, 1u));
+	Footprint texels = footprintAt(map, first, column.first, row.first, level);
+	precise float top = blendHeights(texels.h00, texels.h10, column.blend);
+	precise float bottom = blendHeights(texels.h01, texels.h11, column.blend);
 	return blendHeights(top, bottom, row.blend);
 }
 

@@ -55,6 +55,14 @@ inline uint max(uint a, uint b)
 {
 	return a < b ? b : a;
 }
+inline int min(int a, int b)
+{
+	return a < b ? a : b;
+}
+inline int max(int a, int b)
+{
+	return a < b ? b : a;
+}
 inline int bitCount(uint value)
 {
 	return std::popcount(value);
@@ -68,6 +76,7 @@ inline constexpr bool HAS_HEIGHT_F32 = true;
 inline constexpr bool HAS_WRAP_REPEAT = true;
 inline constexpr bool HAS_WRAP_CLAMP = true;
 inline constexpr bool HAS_WRAP_MIRROR = true;
+inline constexpr bool HAS_HEIGHT_FOOTPRINTS = false;
 }  // namespace tessera
 
 #else

@@ -83,7 +83,7 @@ private:
 	Status makeHeads();
 	Status makeSurface(const FramePlan& plan);
 	Status makeShadingData(const FramePlan& plan);
-	Status makeHeightMaps();
+	Status makeHeightMaps(const PlanInput& input);
 	Status makeTextures();
 	Status makeImage(const ImageDesc& desc, uint32_t binding);
 	bool makesSceneArray(std::string_view name, Status& status);

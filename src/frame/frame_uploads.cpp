@@ -2,6 +2,8 @@
 #include "base/check.h"
 #include "frame/color_mips.h"
 #include "frame/frame_resources.h"
+#include "frame/height_footprints.h"
+#include "plan/conditions.h"
 #include "raster/dump_micro.h"
 #include "shading/material_record.h"
 
@@ -119,13 +121,16 @@ Status FrameResources::allocateEmpty(std::string_view name, uint64_t bytes)
 	return commands_->submitAndWait();
 }
 
-Status FrameResources::makeHeightMaps()
+Status FrameResources::makeHeightMaps(const PlanInput& input)
 {
+	const bool kept_footprints = kHeightFootprints.holds(input);
 	std::vector<HeightMap> records;
 	for (const HeightMapData& map : scene_.height_maps)
 	{
-		TRY_ASSIGN(Buffer texels, uploadBuffer(device_, *commands_, asBytes(map.texels), "height texels " + map.name));
-		records.push_back(map.record);
+		const HeightFootprints footprints = kept_footprints ? heightFootprints(map) : HeightFootprints{ map.record, {} };
+		TRY_ASSIGN(Buffer texels,
+				   uploadBuffer(device_, *commands_, asBytes(kept_footprints ? footprints.texels : map.texels), "height texels " + map.name));
+		records.push_back(footprints.record);
 		records.back().texels = texels.address();
 		height_texels_.push_back(std::move(texels));
 	}
@@ -242,7 +247,7 @@ Status FrameResources::make(std::string_view name, const PlanInput& input)
 	if (name == "table_triangles")
 		return upload(name, asBytes(table_.triangles));
 	if (name == "height_maps")
-		return makeHeightMaps();
+		return makeHeightMaps(input);
 	if (name == "color_textures")
 		return makeTextures();
 	if (name == "picture")

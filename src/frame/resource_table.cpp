@@ -1,5 +1,6 @@
 // Names, kinds and sizes of all resources (what --print-plan says of them).
 #include "frame/frame_resources.h"
+#include "plan/conditions.h"
 #include "raster/dump_micro.h"
 #include "shading/material_record.h"
 #include "shared/history.h"
@@ -97,7 +98,7 @@ constexpr ResourceDesc kResources[] = {
 	  } },
 	{ "height_texels", "texture",
 	  [](const PlanInput& input) -> uint64_t {
-		  return input.sizes.height_texel_bytes;
+		  return kHeightFootprints.holds(input) ? input.sizes.height_footprint_bytes : input.sizes.height_texel_bytes;
 	  } },
 	{ "color_textures", "texture",
 	  [](const PlanInput& input) -> uint64_t {

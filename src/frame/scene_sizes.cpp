@@ -1,3 +1,4 @@
+#include "frame/height_footprints.h"
 #include "frame/renderer.h"
 #include "shared/lists.h"
 
@@ -21,7 +22,10 @@ SceneSizes sizesOf(const BuiltScene& scene)
 	for (const Instance& instance : scene.instances)
 		sizes.instanced_clusters += scene.meshes[instance.mesh].cluster_count;
 	for (const HeightMapData& map : scene.height_maps)
+	{
 		sizes.height_texel_bytes += map.texels.size() * sizeof(uint32_t);
+		sizes.height_footprint_bytes += footprintBytes(map);
+	}
 	for (const ColorTexture& texture : scene.color_textures)
 		sizes.color_texture_bytes += texture.rgba.size() * 4 / 3;
 	sizes.seam_edges = scene.seam_edges.size();
@@ -32,7 +36,8 @@ SceneSizes sizesOf(const BuiltScene& scene)
 
 DeviceTraits traitsOf(const Device& device)
 {
-	return { device.gates.mesh_shader, device.gates.buffer_atomics_64, device.gates.fragment_primitive_id, device.is_cpu };
+	return { device.gates.mesh_shader, device.gates.buffer_atomics_64, device.gates.fragment_primitive_id, device.is_cpu,
+			 device.limits.most_footprint_bytes };
 }
 
 }  // namespace tessera

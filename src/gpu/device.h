@@ -31,10 +31,11 @@ struct DeviceLimits
 	uint32_t mesh_workgroup_threads = 32;  // what the device prefers for mesh shaders, within its limits
 	uint32_t max_mesh_rows = 65535;        // second dimension of a mesh draw
 	uint32_t max_image_extent = 0;
-	uint64_t max_buffer_bytes = 0;           // drivers crash beyond it
-	uint32_t loop_workgroups = 0;            // workgroups of a dispatch whose threads loop over a list
-	uint32_t compute_workgroup_threads = 0;  // of every pass that takes it as a constant; 0: each pass's own
-	double timestamp_ns = 0;                 // per tick; 0: no timestamps
+	uint64_t max_buffer_bytes = 0;               // drivers crash beyond it
+	uint32_t loop_workgroups = 0;                // workgroups of a dispatch whose threads loop over a list
+	uint64_t most_footprint_bytes = 256u << 20;  // of height maps kept as footprints (frame/height_footprints.h); more: as texels
+	uint32_t compute_workgroup_threads = 0;      // of every pass that takes it as a constant; 0: each pass's own
+	double timestamp_ns = 0;                     // per tick; 0: no timestamps
 };
 
 class Device

@@ -51,6 +51,10 @@ inline bool usesIndexed(const PlanInput& input)
 inline constexpr Condition kDisplaced = {
 	[](const PlanInput& input) { return input.scene.has_displacement && input.options.displacement_scale != 0; }, "no material displaces"
 };
+inline constexpr Condition kHeightFootprints = {
+	[](const PlanInput& input) { return kDisplaced.holds(input) && input.sizes.height_footprint_bytes <= input.device.most_footprint_bytes; },
+	"nothing is displaced, or the height maps are too large to be kept with each texel's neighbours"
+};
 inline constexpr Condition kSeams = { [](const PlanInput& input) {
 										 return kDisplaced.holds(input) && input.scene.seam_edges + input.scene.seam_corners > 0;
 									 },

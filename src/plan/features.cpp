@@ -37,6 +37,7 @@ std::vector<Feature> shaderFeatures(const PlanInput& input)
 		feature("HAS_WRAP_CLAMP", 19, input.scene.has_wrap_clamp, "no height map is clamped"),
 		feature("HAS_WRAP_MIRROR", 20, input.scene.has_wrap_mirror, "no height map repeats mirrored"),
 		feature("HAS_MANY_HEIGHT_MAPS", 21, input.sizes.height_maps > UNIFORM_HEIGHT_MAPS, "the height maps fit into a uniform buffer"),
+		conditional("HAS_HEIGHT_FOOTPRINTS", 40, kHeightFootprints),
 		conditional("HAS_OCCLUSION", 23, kMayHide),
 		feature("DIRECTIONS_ARE_NORMALS", 22, input.scene.directions_are_normals, "some direction differs from the normal"),
 	};

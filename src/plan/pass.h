@@ -33,7 +33,7 @@ struct SceneSizes
 	uint64_t vertices = 0, triangles = 0, clusters = 0, meshes = 0, instances = 0, materials = 0;
 	uint64_t most_groups_per_mesh = 0;  // groups of CLUSTER_GROUP_SIZE clusters
 	uint64_t instanced_clusters = 0;    // clusters over all instances
-	uint64_t height_texel_bytes = 0, color_texture_bytes = 0, seam_edges = 0, seam_corners = 0, height_maps = 0;
+	uint64_t height_texel_bytes = 0, height_footprint_bytes = 0, color_texture_bytes = 0, seam_edges = 0, seam_corners = 0, height_maps = 0;
 };
 
 // What the planner needs of the device: the gates that decide passes.
@@ -43,6 +43,7 @@ struct DeviceTraits
 	bool buffer_atomics_64 = false;
 	bool fragment_primitive_id = false;
 	bool is_cpu = false;
+	uint64_t most_footprint_bytes = 0;  // memory that height maps may take to be read faster
 };
 
 // What the host knows of the view before it is drawn.

@@ -57,6 +57,8 @@ public:
 			device.limits.mesh_workgroup_threads = variation.mesh_threads;
 		if (variation.loop_workgroups > 0)
 			device.limits.loop_workgroups = variation.loop_workgroups;
+		if (variation.height_texels)
+			device.limits.most_footprint_bytes = 0;
 	}
 	~OtherLimits() { device_.limits = before_; }
 	OtherLimits(const OtherLimits&) = delete;

@@ -22,6 +22,7 @@ struct Variation
 	bool shuffled = false;         // instances, and clusters within their meshes, in another order
 	uint32_t compute_threads = 0;  // 0: as usual
 	uint32_t mesh_threads = 0, loop_workgroups = 0;
+	bool height_texels = false;  // height maps as texels, not as footprints
 };
 
 class FrameSource

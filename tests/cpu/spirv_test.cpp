@@ -347,7 +347,7 @@ TEST(sharedFloatCode, isNeverContractedAndUsesOnlyExactOperations)
 	for (const char* name :
 		 { "edgeHasAtLeast", "viewEdge",       "weighted",     "weightedVec3",        "normalized",     "placed",        "affineRow",
 		   "clipPosition",   "cameraRelative", "scaledRow",    "rateDistanceSquared", "placementOf",    "domainWeights", "foldCoordinate",
-		   "texelPair",      "texelHeight",    "blendHeights", "levelHeight",         "roughLog2",      "heightLevel",   "heightAt",
+		   "texelPlace",     "texelHeight",    "blendHeights", "levelHeight",         "roughLog2",      "heightLevel",   "heightAt",
 		   "displacementAt", "displacedPoint", "displaced",    "sampleAtPoint",       "sampleAtVertex", "seamEdgeSource" })
 		EXPECT_TRUE(check.functions.count(name)) << name << ": no shader has it, so it was not checked";
 }
