@@ -5,9 +5,11 @@
 #include "shared/lists.h"
 #include "shared/raster_inputs.h"
 
-// Parts that a batch can have here; an includer may define fewer before.
+// What a batch can have here; an includer may define its own before. Vertices and triangles are multiples of 32.
 #ifndef STAGED_PARTS
 #define STAGED_PARTS BATCH_MAX_PARTS
+#define STAGED_VERTICES BATCH_MAX_VERTICES
+#define STAGED_TRIANGLES BATCH_MAX_TRIANGLES
 #endif
 
 // First triangle and vertex of its pattern in the table, 16 bits each; 1 when its triangles are emitted with two
@@ -17,6 +19,12 @@ shared uint part_turned[STAGED_PARTS];
 shared uint part_indices[STAGED_PARTS];  // into part_triangles
 // Micro-vertices before each part in the low, micro-triangles in the high half; all ones past the last.
 shared uint part_sums[STAGED_PARTS];
+
+// Per block of 32 micro-vertices, then per block of 32 micro-triangles: a bit for each that is its part's first, and the parts that begin before.
+const uint VERTEX_BLOCKS = STAGED_VERTICES / 32u;
+const uint OWNER_BLOCKS = VERTEX_BLOCKS + STAGED_TRIANGLES / 32u;
+shared uint owner_starts[OWNER_BLOCKS];
+shared uint owner_before[OWNER_BLOCKS];
 
 PatternRange patternOf(RasterInputs inputs, DomainPiece piece)
 {
@@ -39,6 +47,26 @@ void loadPart(RasterInputs inputs, uint part, PartPlace place, uint first_offset
 	part_sums[part] = place.offsets - first_offsets;
 }
 
+// Once part_sums are there: what owningPart looks up.
+void loadOwners()
+{
+	// From the last lane down: the first ones have other work at that time.
+	for (uint block = gl_WorkGroupSize.x - 1u - gl_LocalInvocationIndex; block < OWNER_BLOCKS; block += gl_WorkGroupSize.x)
+	{
+		uint shift = block < VERTEX_BLOCKS ? 0u : 16u;
+		uint number = block < VERTEX_BLOCKS ? block : block - VERTEX_BLOCKS;
+		uint starts = 0u, before = 0u;
+		for (uint part = 0u; part < STAGED_PARTS; ++part)
+		{
+			uint start = (part_sums[part] >> shift) & 0xffffu;
+			starts |= start >> 5 == number ? 1u << (start & 31u) : 0u;
+			before += start < 32u * number ? 1u : 0u;
+		}
+		owner_starts[block] = starts;
+		owner_before[block] = before;
+	}
+}
+
 // Reads the layout of a batch. Ends with a barrier.
 void loadBatch(RasterInputs inputs, uint batch)
 {
@@ -52,17 +80,19 @@ void loadBatch(RasterInputs inputs, uint batch)
 		loadPart(inputs, lane, place, inputs.part_places.at[first].offsets, unpackTriangle(inputs.part_triangles.at[place.part]));
 	}
 	barrier();
+	loadOwners();
+	barrier();
 }
 
-// The part that owns entry `index` of the half of the sums that starts at bit `shift`.
-uint owningPart(uint index, uint shift)
+uint ownerIn(uint block, uint index)
 {
-	uint low = 0u;
-	for (uint step = STAGED_PARTS / 2u; step > 0u; step /= 2u)
-		if (((part_sums[low + step] >> shift) & 0xffffu) <= index)
-			low += step;
-	return low;
+	// Parts that begin at this entry or before it: at least one does.
+	return owner_before[block] + uint(bitCount(owner_starts[block] << (31u - (index & 31u)))) - 1u;
 }
+
+// The part that owns a micro-vertex or a micro-triangle of the batch.
+uint vertexOwner(uint index) { return ownerIn(index >> 5, index); }
+uint triangleOwner(uint index) { return ownerIn(VERTEX_BLOCKS + (index >> 5), index); }
 
 struct MicroTriangle
 {

@@ -1,5 +1,5 @@
 // The micro-vertices of a batch: what each part's evaluation needs is loaded once per workgroup, in two steps with a barrier between:
-// what names its base triangle, one lane a part; then the triangle's corners and the part's edges, one lane a corner.
+// what names its base triangle, one lane a part; then the triangle's corners and the part's edges, one lane a corner, and who owns what.
 #ifndef TESSERA_LIB_BATCH_VERTICES
 #define TESSERA_LIB_BATCH_VERTICES
 #include "lib/frame_data.glsl"
@@ -96,6 +96,7 @@ void loadBatchCorners(RasterInputs inputs, uint count)
 {
 	for (uint i = gl_LocalInvocationIndex; i < 3u * count; i += gl_WorkGroupSize.x)
 		loadPartCorner(inputs, i / 3u, i % 3u);
+	loadOwners();
 }
 
 Placement partPlacement(uint part)

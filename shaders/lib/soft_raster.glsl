@@ -105,18 +105,18 @@ vec4 clipVertex(uint index)
 	return clipAt(stored.xy, stored.z, frame_view);
 }
 
-// A vertex that is inside the guard band.
-ScreenVertex screenVertex(uint index, View view)
+// A vertex that is inside the guard band. `projected`, here and below: no vertex of the item lies outside it, so that all are kept projected.
+ScreenVertex screenVertex(uint index, bool projected, View view)
 {
-	if (raster_has_outside != 0u)
+	if (!projected)
 		return toScreen(clipVertex(index), view);
 	uvec3 stored = keptVertex(index);
 	return ScreenVertex(ivec2(stored.xy), uintBitsToFloat(stored.z));
 }
 
-bool allInside(uvec3 corners, View view)
+bool allInside(uvec3 corners, bool projected, View view)
 {
-	return raster_has_outside == 0u || (insideGuard(clipVertex(corners.x), view) && insideGuard(clipVertex(corners.y), view) &&
+	return projected || (insideGuard(clipVertex(corners.x), view) && insideGuard(clipVertex(corners.y), view) &&
 	                                    insideGuard(clipVertex(corners.z), view));
 }
 
@@ -250,15 +250,15 @@ void leaveWide(uint triangle)
 }
 
 // One lane takes triangle `triangle` of its workgroup: does it alone when it is small, leaves it to finishRaster otherwise.
-void rasterTriangle(VisibilityRef target, uint triangle, uvec3 corners, uint payload, bool two_sided, View view)
+void rasterTriangle(VisibilityRef target, uint triangle, uvec3 corners, uint payload, bool two_sided, bool projected, View view)
 {
-	if (!allInside(corners, view))
+	if (!allInside(corners, projected, view))
 	{
 		if (!isBeyondOneSide(clipVertex(corners.x), clipVertex(corners.y), clipVertex(corners.z)))
 			leaveWide(triangle);
 		return;
 	}
-	ScreenVertex a = screenVertex(corners.x, view), b = screenVertex(corners.y, view), c = screenVertex(corners.z, view);
+	ScreenVertex a = screenVertex(corners.x, projected, view), b = screenVertex(corners.y, projected, view), c = screenVertex(corners.z, projected, view);
 	PixelBox box = pixelBox(a.position, b.position, c.position, view);
 	if (any(greaterThan(box.low, box.high)))
 		return;
@@ -336,11 +336,12 @@ void rasterWideCorners(VisibilityRef target, ScreenVertex a, ScreenVertex b, Scr
 }
 
 // The whole workgroup does one triangle that a single lane left.
-void rasterLeft(VisibilityRef target, uvec3 corners, uint payload, bool two_sided, View view)
+void rasterLeft(VisibilityRef target, uvec3 corners, uint payload, bool two_sided, bool projected, View view)
 {
-	if (allInside(corners, view))
+	if (allInside(corners, projected, view))
 	{
-		rasterWideCorners(target, screenVertex(corners.x, view), screenVertex(corners.y, view), screenVertex(corners.z, view), payload, two_sided, view);
+		rasterWideCorners(target, screenVertex(corners.x, projected, view), screenVertex(corners.y, projected, view),
+		                  screenVertex(corners.z, projected, view), payload, two_sided, view);
 		return;
 	}
 	if (gl_LocalInvocationIndex == 0u)

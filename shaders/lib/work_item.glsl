@@ -56,7 +56,7 @@ WorkItem workItem(RasterInputs inputs, FullClusterRef full_clusters, BatchRef ba
 vec3 itemVertex(RasterInputs inputs, WorkItem item, uint index)
 {
 	bool is_batch = HAS_TESSELLATION && item.is_batch;
-	uint owner = is_batch ? owningPart(index, 0u) : 0u;
+	uint owner = is_batch ? vertexOwner(index) : 0u;
 	SurfaceSample at;
 	if (is_batch)
 		at = batchSample(inputs, index, owner);
@@ -69,14 +69,14 @@ vec3 itemVertex(RasterInputs inputs, WorkItem item, uint index)
 MicroTriangle itemTriangle(RasterInputs inputs, WorkItem item, uint index)
 {
 	if (HAS_TESSELLATION && item.is_batch)
-		return batchTriangle(inputs, index, owningPart(index, 16u));
+		return batchTriangle(inputs, index, triangleOwner(index));
 	return MicroTriangle(clusterTriangle(item_cluster, part_turned[0], index), packPayload(KIND_FULL_CLUSTER, item.parts, index));
 }
 
 uint itemMaterial(WorkItem item, uint triangle)
 {
 	if (HAS_TESSELLATION && item.is_batch)
-		return part_materials[owningPart(triangle, 16u)];
+		return part_materials[triangleOwner(triangle)];
 	return item_cluster.material;
 }
 

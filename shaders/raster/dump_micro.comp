@@ -10,6 +10,10 @@
 #extension GL_GOOGLE_include_directive : require
 // Before every include: glslang takes a workgroup size that is used before it is declared for 1.
 layout(local_size_x_id = 0) in;
+// Batches of any producer of visibility.
+#define STAGED_PARTS BATCH_MAX_PARTS
+#define STAGED_VERTICES RASTER_BATCH_VERTICES
+#define STAGED_TRIANGLES RASTER_BATCH_TRIANGLES
 #include "lib/features.glsl"
 #include "lib/frame_data.glsl"
 #include "raster/dump_micro.h"
@@ -54,7 +58,7 @@ DumpSource clusterSource(WorkItem item, uint index)
 
 DumpSource batchSource(WorkItem item, uint index)
 {
-	uint part = owningPart(index, 0u);
+	uint part = vertexOwner(index);
 	DumpSource source;
 	source.owner = part_indices[part];
 	source.base = part_bases[part];

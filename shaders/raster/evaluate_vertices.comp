@@ -10,12 +10,13 @@
 // Host: src/pipeline/raster/evaluate_vertices.cpp   Test: tests/gpu/raster_test.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
+// Before every include: glslang takes a workgroup size that is used before it is declared for 1.
+layout(local_size_x_id = 0) in;
 #include "lib/features.glsl"
 #include "lib/frame_data.glsl"
 #include "raster/evaluate_vertices.h"
 #include "lib/work_item.glsl"
 
-layout(local_size_x_id = 0) in;
 layout(push_constant, scalar) uniform Args { EvaluateVerticesArgs args; };
 
 shared uint first_triangle;

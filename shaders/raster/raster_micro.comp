@@ -11,6 +11,8 @@
 // Before every include: glslang takes a workgroup size that is used before it is declared for 1.
 layout(local_size_x_id = 0) in;
 #define STAGED_PARTS RASTER_BATCH_PARTS
+#define STAGED_VERTICES RASTER_BATCH_VERTICES
+#define STAGED_TRIANGLES RASTER_BATCH_TRIANGLES
 #include "lib/features.glsl"
 #include "lib/frame_data.glsl"
 #include "raster/raster_micro.h"
@@ -26,18 +28,18 @@ bool isTwoSided(WorkItem item, uint triangle)
 	return (args.inputs.material_flags.at[itemMaterial(item, triangle)] & MATERIAL_DOUBLE_SIDED) != 0u;
 }
 
-void rasterTriangles(WorkItem item, View view)
+void rasterTriangles(WorkItem item, bool projected, View view)
 {
 	VisibilityRef target = VisibilityRef(args.visibility);
 	for (uint t = gl_LocalInvocationIndex; t < item.triangle_count; t += gl_WorkGroupSize.x)
 	{
 		MicroTriangle triangle = itemTriangle(args.inputs, item, t);
-		rasterTriangle(target, t, triangle.vertices, triangle.payload, isTwoSided(item, t), view);
+		rasterTriangle(target, t, triangle.vertices, triangle.payload, isTwoSided(item, t), projected, view);
 	}
 }
 
 // The whole workgroup takes what single lanes left.
-void rasterWideTriangles(WorkItem item, View view)
+void rasterWideTriangles(WorkItem item, bool projected, View view)
 {
 	VisibilityRef target = VisibilityRef(args.visibility);
 	for (uint word = 0u; word < MAX_RASTER_TRIANGLES / 32u; ++word)
@@ -45,12 +47,12 @@ void rasterWideTriangles(WorkItem item, View view)
 		{
 			uint t = 32u * word + uint(findLSB(left));
 			MicroTriangle triangle = itemTriangle(args.inputs, item, t);
-			rasterLeft(target, triangle.vertices, triangle.payload, isTwoSided(item, t), view);
+			rasterLeft(target, triangle.vertices, triangle.payload, isTwoSided(item, t), projected, view);
 		}
 }
 
-// Ends with a barrier. Where a vertex lies outside the guard band, all are stored again.
-void storeVertices(WorkItem item, View view)
+// Ends with a barrier. Where a vertex lies outside the guard band, all are stored again; says whether they are stored projected.
+bool storeVertices(WorkItem item, View view)
 {
 	for (bool projects = true;; projects = false)
 	{
@@ -58,7 +60,7 @@ void storeVertices(WorkItem item, View view)
 			storeRasterVertex(v, itemVertex(args.inputs, item, v), projects, view);
 		barrier();
 		if (!projects || raster_has_outside == 0u)
-			return;
+			return projects;
 		// All lanes have read that some are outside before any is stored again.
 		barrier();
 	}
@@ -66,11 +68,11 @@ void storeVertices(WorkItem item, View view)
 
 void rasterItem(WorkItem item, View view)
 {
-	storeVertices(item, view);
-	rasterTriangles(item, view);
+	bool projected = storeVertices(item, view);
+	rasterTriangles(item, projected, view);
 	barrier();
 	if (raster_any_wide != 0u)
-		rasterWideTriangles(item, view);
+		rasterWideTriangles(item, projected, view);
 	barrier();
 }
 

@@ -75,17 +75,9 @@ SHARED_FN Box displacedBox(DisplacedBounds bounds, float displacement_scale)
 	return box;
 }
 
-// A plane function over a placed box: its value at the centre, how far it gets from that, and a bound of the rounding of both.
-struct PlaneSpan
-{
-	float middle;
-	float reach;
-	float rounding;
-};
-
-// Of the plane function normal . view + w_slope * depth + offset, where the normal is
+// Largest value over a placed box of the plane function normal . view + w_slope * depth + offset, where the normal is
 // x * right + y * up + depth * forward; centre and half axes are camera-relative.
-SHARED_FN PlaneSpan planeSpan(float x, float y, float depth, float offset, vec3 centre, vec3 axis0, vec3 axis1, vec3 axis2, View view)
+SHARED_FN float planeReach(float x, float y, float depth, float offset, vec3 centre, vec3 axis0, vec3 axis1, vec3 axis2, View view)
 {
 	vec3 normal = vec3(x * view.right.x + y * view.up.x + depth * view.forward.x, x * view.right.y + y * view.up.y + depth * view.forward.y,
 					   x * view.right.z + y * view.up.z + depth * view.forward.z);
@@ -94,35 +86,19 @@ SHARED_FN PlaneSpan planeSpan(float x, float y, float depth, float offset, vec3 
 	float reach1 = normal.x * axis1.x + normal.y * axis1.y + normal.z * axis1.z;
 	float reach2 = normal.x * axis2.x + normal.y * axis2.y + normal.z * axis2.z;
 	float reach = max(reach0, -reach0) + max(reach1, -reach1) + max(reach2, -reach2);
-	PlaneSpan span;
-	span.middle = middle;
-	span.reach = reach;
-	span.rounding = (max(middle, -middle) + reach + max(centre.x, -centre.x) + max(centre.y, -centre.y) + max(centre.z, -centre.z)) * 4e-6f;
-	return span;
-}
-
-// Of the planes of the view: left, right, bottom, top, near.
-#define VIEW_PLANES 5u
-SHARED_FN PlaneSpan viewPlaneSpan(uint plane, vec3 centre, vec3 axis0, vec3 axis1, vec3 axis2, View view)
-{
-	if (plane == 4u)
-		return planeSpan(0.0f, 0.0f, 1.0f, -view.near, centre, axis0, axis1, axis2, view);
-	float x = plane == 0u ? view.focal_x : (plane == 1u ? -view.focal_x : 0.0f);
-	float y = plane == 2u ? view.focal_y : (plane == 3u ? -view.focal_y : 0.0f);
-	return planeSpan(x, y, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view);
+	float rounding = (max(middle, -middle) + reach + max(centre.x, -centre.x) + max(centre.y, -centre.y) + max(centre.z, -centre.z)) * 4e-6f;
+	return middle + reach + rounding;
 }
 
 // False only when no point of a placed box (centre and half axes) can be inside the view: left, right, bottom, top or
 // before the near plane.
 SHARED_FN bool placedBoxMayBeVisible(vec3 centre, vec3 axis0, vec3 axis1, vec3 axis2, View view)
 {
-	for (uint plane = 0u; plane < VIEW_PLANES; ++plane)
-	{
-		PlaneSpan span = viewPlaneSpan(plane, centre, axis0, axis1, axis2, view);
-		if (!(span.middle + span.reach + span.rounding >= 0.0f))
-			return false;
-	}
-	return true;
+	return planeReach(view.focal_x, 0.0f, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
+		   planeReach(-view.focal_x, 0.0f, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
+		   planeReach(0.0f, view.focal_y, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
+		   planeReach(0.0f, -view.focal_y, view.w_slope, view.w_offset, centre, axis0, axis1, axis2, view) >= 0.0f &&
+		   planeReach(0.0f, 0.0f, 1.0f, -view.near, centre, axis0, axis1, axis2, view) >= 0.0f;
 }
 
 // False only when no point of the box can be inside the view.
@@ -195,32 +171,12 @@ SHARED_FN PieceBox pieceBox(vec3 p, vec3 q, vec3 r, PlacedReach reach)
 	return box;
 }
 
-// True only when no point of a placed box can be outside the view.
-SHARED_FN bool placedBoxIsInside(vec3 centre, vec3 axis0, vec3 axis1, vec3 axis2, View view)
-{
-	for (uint plane = 0u; plane < VIEW_PLANES; ++plane)
-	{
-		PlaneSpan span = viewPlaneSpan(plane, centre, axis0, axis1, axis2, view);
-		if (!(span.middle - span.reach - span.rounding >= 0.0f))
-			return false;
-	}
-	return true;
-}
-
 // False only when no displaced point of the piece can be inside the view.
 SHARED_FN bool pieceMayBeVisible(vec3 p, vec3 q, vec3 r, PlacedReach reach, View view)
 {
 	PieceBox box = pieceBox(p, q, r, reach);
 	return placedBoxMayBeVisible(box.centre, vec3(box.half_size.x, 0.0f, 0.0f), vec3(0.0f, box.half_size.y, 0.0f), vec3(0.0f, 0.0f, box.half_size.z),
 								 view);
-}
-
-// True only when no displaced point of the piece can be outside the view: pieces of it need no test.
-SHARED_FN bool pieceIsInside(vec3 p, vec3 q, vec3 r, PlacedReach reach, View view)
-{
-	PieceBox box = pieceBox(p, q, r, reach);
-	return placedBoxIsInside(box.centre, vec3(box.half_size.x, 0.0f, 0.0f), vec3(0.0f, box.half_size.y, 0.0f), vec3(0.0f, 0.0f, box.half_size.z),
-							 view);
 }
 
 SHARED_END

@@ -14,6 +14,8 @@ struct TriangleSplitArgs
 	GPU_PTR(InstanceRecord) instances;
 	GPU_PTR(ClusterRecord) clusters;
 	GPU_PTR(DisplacedBounds) cluster_bounds;  // 0 without culling
+	GPU_PTR(vec3) positions;
+	GPU_PTR(uint) triangles;
 	GPU_PTR(ListHead) heads;
 	GPU_PTR(FrameCounts) counts;
 	GPU_PTR(ClusterRef) visible_clusters;
@@ -25,7 +27,7 @@ struct TriangleSplitArgs
 	uint cull_frustum;
 	uint last_level;  // 1: what still exceeds the table after this level has nowhere to go (the frame is planned again)
 };
-SHARED_LAYOUT(TriangleSplitArgs, 112, last_level, 104)
+SHARED_LAYOUT(TriangleSplitArgs, 128, last_level, 120)
 
 SHARED_END
 

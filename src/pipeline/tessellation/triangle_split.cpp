@@ -7,18 +7,24 @@ namespace tessera
 {
 
 static constexpr Use kUses[] = {
-	{ "visible_clusters", Access::ComputeRead }, { "view", Access::ComputeRead },
-	{ "surface", Access::ComputeRead },          { "instances", Access::ComputeRead },
-	{ "clusters", Access::ComputeRead },         { "cluster_bounds", Access::ComputeRead, &kCulls },
-	{ "positions", Access::ComputeRead },        { "triangles", Access::ComputeRead },
-	{ "patterns", Access::ComputeRead },         { "table_vertices", Access::ComputeRead },
-	{ "table_triangles", Access::ComputeRead },  { "heads", Access::ComputeWrite },
-	{ "counts", Access::ComputeWrite },          { "split_triangles", Access::ComputeWrite },
+	{ "visible_clusters", Access::ComputeRead },
+	{ "view", Access::ComputeRead },
+	{ "instances", Access::ComputeRead },
+	{ "clusters", Access::ComputeRead },
+	{ "cluster_bounds", Access::ComputeRead, &kCulls },
+	{ "positions", Access::ComputeRead },
+	{ "triangles", Access::ComputeRead },
+	{ "patterns", Access::ComputeRead },
+	{ "table_vertices", Access::ComputeRead },
+	{ "table_triangles", Access::ComputeRead },
+	{ "heads", Access::ComputeWrite },
+	{ "counts", Access::ComputeWrite },
+	{ "split_triangles", Access::ComputeWrite },
 	{ "part_triangles", Access::ComputeWrite },
 };
 
 // SPLITS_PER_GROUP of the shader.
-constexpr uint32_t kSplitsPerGroup = 32;
+constexpr uint32_t kSplitsPerGroup = 24;
 
 static uint32_t levels(const PlanInput& input)
 {
@@ -31,6 +37,8 @@ static void record(PassContext& pass)
 	args.instances = pass.address("instances");
 	args.clusters = pass.address("clusters");
 	args.cluster_bounds = pass.address("cluster_bounds");
+	args.positions = pass.address("positions");
+	args.triangles = pass.address("triangles");
 	args.heads = pass.address("heads");
 	args.counts = pass.address("counts");
 	args.visible_clusters = pass.address("visible_clusters");
