@@ -1,8 +1,8 @@
 // dump_micro: write out the very micro-vertices and micro-triangles that a rasteriser draws, for export and verification.
 //
 //   in   full_clusters, batches
-//   out  micro_dump   DumpItem[]   entry i is full cluster i, after those batch i; what exceeds its capacity is left out, and
-//                                  the host makes it larger and draws again
+//   out  micro_dump   DumpHead, DumpItem[], DumpVertex[], DumpTriangle[]   item i is full cluster i, after those batch i; what
+//                     exceeds a capacity is left out, and the host makes it larger and draws again
 //
 // Every raster path evaluates its vertices by the same functions from the same lists, so this stands for each of them.
 // Host: src/pipeline/raster/dump_micro.cpp   Test: tests/gpu/export_test.cpp
@@ -91,20 +91,32 @@ DumpVertex dumpVertex(WorkItem item, uint index)
 	return DumpVertex(point, normalOf(source), source.owner, source.name.u, source.name.v);
 }
 
-void dumpItem(WorkItem item, uint index)
+shared uint first_vertex;
+shared uint first_triangle;
+
+// Ranges for an item; by one lane. An item that does not fit stays empty.
+void takeRanges(DumpHead dump, WorkItem item, uint index)
+{
+	first_vertex = atomicAdd(args.counts.at[0].dump_vertices, item.vertex_count);
+	first_triangle = atomicAdd(args.counts.at[0].dump_triangles, item.triangle_count);
+	bool fits = first_vertex + item.vertex_count <= dump.vertex_capacity && first_triangle + item.triangle_count <= dump.triangle_capacity;
+	dump.items.at[index] = DumpItem(first_vertex, fits ? item.vertex_count : 0u, first_triangle, fits ? item.triangle_count : 0u);
+}
+
+void dumpItem(DumpHead dump, WorkItem item, uint index)
 {
 	if (gl_LocalInvocationIndex == 0u)
-	{
-		args.items.at[index].vertex_count = item.vertex_count;
-		args.items.at[index].triangle_count = item.triangle_count;
-	}
+		takeRanges(dump, item, index);
+	barrier();
 	for (uint v = gl_LocalInvocationIndex; v < item.vertex_count; v += gl_WorkGroupSize.x)
-		args.items.at[index].vertices[v] = dumpVertex(item, v);
+		if (first_vertex + v < dump.vertex_capacity)
+			dump.vertices.at[first_vertex + v] = dumpVertex(item, v);
 	for (uint t = gl_LocalInvocationIndex; t < item.triangle_count; t += gl_WorkGroupSize.x)
 	{
 		MicroTriangle triangle = itemTriangle(args.inputs, item, t);
 		uint corners = triangle.vertices.x | (triangle.vertices.y << 10) | (triangle.vertices.z << 20);
-		args.items.at[index].triangles[t] = DumpTriangle(corners, triangle.payload);
+		if (first_triangle + t < dump.triangle_capacity)
+			dump.triangles.at[first_triangle + t] = DumpTriangle(corners, triangle.payload);
 	}
 	barrier();
 }
@@ -115,15 +127,15 @@ void main()
 		return;
 	uint cluster_count = args.heads.at[LIST_FULL_CLUSTERS].wanted;
 	uint item_count = cluster_count + (HAS_TESSELLATION ? args.heads.at[LIST_BATCHES].wanted : 0u);
-	item_count = min(item_count, args.item_capacity);
+	DumpHead dump = args.dump.at[0];
+	item_count = min(item_count, dump.item_capacity);
 	for (uint index = gl_WorkGroupID.x; index < item_count; index += gl_NumWorkGroups.x)
 	{
 		if (HAS_OCCLUSION && index < cluster_count && args.full_clusters.at[index].phase == PHASE_HIDDEN)
 		{
-			args.items.at[index].vertex_count = 0u;
-			args.items.at[index].triangle_count = 0u;
+			dump.items.at[index] = DumpItem(0u, 0u, 0u, 0u);
 			continue;
 		}
-		dumpItem(workItem(args.inputs, args.full_clusters, args.batches, index, cluster_count), index);
+		dumpItem(dump, workItem(args.inputs, args.full_clusters, args.batches, index, cluster_count), index);
 	}
 }

@@ -26,17 +26,30 @@ struct DumpTriangle
 };
 SHARED_LAYOUT(DumpTriangle, 8, payload, 4)
 
-// Everything that one workgroup of a rasteriser draws: a full cluster or a batch.
+// Everything that one workgroup of a rasteriser draws: a full cluster or a batch. Its ranges of the vertices and triangles, which no other item has.
 #define DUMP_ITEM_VERTICES RASTER_BATCH_VERTICES
 #define DUMP_ITEM_TRIANGLES RASTER_BATCH_TRIANGLES
 struct DumpItem
 {
+	uint first_vertex;
 	uint vertex_count;
+	uint first_triangle;
 	uint triangle_count;
-	DumpVertex vertices[DUMP_ITEM_VERTICES];
-	DumpTriangle triangles[DUMP_ITEM_TRIANGLES];
 };
-SHARED_LAYOUT(DumpItem, 24584, triangles, 18440)
+SHARED_LAYOUT(DumpItem, 16, triangle_count, 12)
+
+// Where a dump goes: the beginning of its buffer. What exceeds a capacity is counted and left out.
+struct DumpHead
+{
+	GPU_PTR(DumpItem) items;
+	GPU_PTR(DumpVertex) vertices;
+	GPU_PTR(DumpTriangle) triangles;
+	uint item_capacity;
+	uint vertex_capacity;
+	uint triangle_capacity;
+	uint unused;
+};
+SHARED_LAYOUT(DumpHead, 40, unused, 36)
 
 struct DumpMicroArgs
 {
@@ -46,10 +59,9 @@ struct DumpMicroArgs
 	GPU_PTR(FullCluster) full_clusters;
 	GPU_PTR(Batch) batches;  // 0 when nothing is tessellated
 	GPU_PTR(ShadingData) shading;
-	GPU_PTR(DumpItem) items;
-	uint item_capacity;
+	GPU_PTR(DumpHead) dump;
 };
-SHARED_LAYOUT(DumpMicroArgs, 128, item_capacity, 120)
+SHARED_LAYOUT(DumpMicroArgs, 120, dump, 112)
 
 SHARED_END
 

@@ -41,17 +41,19 @@ struct FrameCounts
 	uint micro_low;  // micro-triangles of part triangles, 64 bits in two words
 	uint micro_high;
 	uint full_cluster_triangles;
-	uint expanded_triangles;             // taken so far by evaluate_vertices
-	uint rate_step;                      // candidate that rate_search chose: 0 = the rate that the frame was planned for
-	uint listed_again;                   // 1: rate_search emptied the lists and filled them at that rate
-	uint levels_missing;                 // split triangles left over by too few levels; listed again since
-	uint search_finished;                // workgroups of rate_search that have counted
-	uint second_batches;                 // first batch of the second phase
-	uint hidden_parts;                   // not rasterised in the first phase
-	uint revealed_parts;                 // but in the second
+	uint expanded_triangles;  // taken so far by evaluate_vertices
+	uint rate_step;           // candidate that rate_search chose: 0 = the rate that the frame was planned for
+	uint listed_again;        // 1: rate_search emptied the lists and filled them at that rate
+	uint levels_missing;      // split triangles left over by too few levels; listed again since
+	uint search_finished;     // workgroups of rate_search that have counted
+	uint second_batches;      // first batch of the second phase
+	uint hidden_parts;        // not rasterised in the first phase
+	uint revealed_parts;      // but in the second
+	uint dump_vertices;       // that dump_micro wants to write
+	uint dump_triangles;
 	uint split_count[MAX_SPLIT_LEVELS];  // split triangles appended per level; level 0 by cluster_classify
 };
-SHARED_LAYOUT(FrameCounts, 180, split_count, 52)
+SHARED_LAYOUT(FrameCounts, 188, split_count, 60)
 
 // An entry of cluster_groups: up to CLUSTER_GROUP_SIZE clusters of one instance.
 #define CLUSTER_GROUP_SIZE 64u

@@ -58,15 +58,11 @@ public:
 
 	void add(size_t index)
 	{
-		const DumpItem& item = dump_.items[index];
-		uint32_t vertices[DUMP_ITEM_VERTICES];
-		for (uint32_t v = 0; v < item.vertex_count; ++v)
-			vertices[v] = addVertex(item.vertices[v], dump_.isBatch(index));
-		for (uint32_t t = 0; t < item.triangle_count; ++t)
-		{
-			const DumpTriangle& triangle = item.triangles[t];
-			mesh_.addTriangle(vertices[cornerOf(triangle, 0)], vertices[cornerOf(triangle, 1)], vertices[cornerOf(triangle, 2)]);
-		}
+		vertices_.clear();
+		for (const DumpVertex& vertex : dump_.verticesOf(index))
+			vertices_.push_back(addVertex(vertex, dump_.isBatch(index)));
+		for (const DumpTriangle& triangle : dump_.trianglesOf(index))
+			mesh_.addTriangle(vertices_[cornerOf(triangle, 0)], vertices_[cornerOf(triangle, 1)], vertices_[cornerOf(triangle, 2)]);
 	}
 
 private:
@@ -85,6 +81,7 @@ private:
 	const FrameDump& dump_;
 	MeshWelder& mesh_;
 	std::vector<InstancePlace> places_;
+	std::vector<uint32_t> vertices_;  // of the item, in the mesh
 };
 
 }  // namespace

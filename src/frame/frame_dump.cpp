@@ -22,19 +22,31 @@ Result<std::vector<T>> readAll(Renderer& renderer, std::string_view name)
 	return items;
 }
 
+// `count` records of a buffer from byte `first` on, fewer where it ends before.
+template <typename T>
+std::vector<T> recordsAt(std::span<const std::byte> bytes, uint64_t first, uint64_t count)
+{
+	std::vector<T> records(std::min<uint64_t>(count, first < bytes.size() ? (bytes.size() - first) / sizeof(T) : 0));
+	if (!records.empty())
+		std::memcpy(static_cast<void*>(records.data()), bytes.data() + first, records.size() * sizeof(T));
+	return records;
+}
+
 // An item may name only what exists: later code indexes by it.
 bool isSound(const FrameDump& dump, size_t index)
 {
 	const DumpItem& item = dump.items[index];
-	if (item.vertex_count > DUMP_ITEM_VERTICES || item.triangle_count > DUMP_ITEM_TRIANGLES)
+	if (item.vertex_count > DUMP_ITEM_VERTICES || item.triangle_count > DUMP_ITEM_TRIANGLES ||
+		uint64_t(item.first_vertex) + item.vertex_count > dump.vertices.size() ||
+		uint64_t(item.first_triangle) + item.triangle_count > dump.triangles.size())
 		return false;
 	const size_t owners = dump.isBatch(index) ? dump.parts.size() : dump.visible.size();
-	for (uint32_t v = 0; v < item.vertex_count; ++v)
-		if (item.vertices[v].owner >= owners)
+	for (const DumpVertex& vertex : dump.verticesOf(index))
+		if (vertex.owner >= owners)
 			return false;
-	for (uint32_t t = 0; t < item.triangle_count; ++t)
+	for (const DumpTriangle& triangle : dump.trianglesOf(index))
 		for (uint32_t corner = 0; corner < 3; ++corner)
-			if (cornerOf(item.triangles[t], corner) >= item.vertex_count)
+			if (cornerOf(triangle, corner) >= item.vertex_count)
 				return false;
 	return true;
 }
@@ -85,11 +97,14 @@ Result<FrameDump> readDump(Renderer& renderer)
 {
 	TRY_ASSIGN(FrameDump dump, readLists(renderer));
 	TRY_ASSIGN(const std::vector<Batch> batches, readAll<Batch>(renderer, "batches"));
-	TRY_ASSIGN(dump.items, readAll<DumpItem>(renderer, "micro_dump"));
+	TRY_ASSIGN(const std::vector<std::byte> bytes, renderer.readResource("micro_dump"));
+	const DumpLayout& layout = renderer.dumpLayout();
 	const size_t wanted = dump.full_clusters.size() + batches.size();
+	dump.items = recordsAt<DumpItem>(bytes, layout.firstItem(), std::min<uint64_t>(wanted, layout.items));
+	dump.vertices = recordsAt<DumpVertex>(bytes, layout.firstVertex(), layout.vertices);
+	dump.triangles = recordsAt<DumpTriangle>(bytes, layout.firstTriangle(), layout.triangles);
 	if (dump.items.size() < wanted)
 		return badInput("the frame has {} full clusters and batches, and {} were read back", wanted, dump.items.size());
-	dump.items.resize(wanted);
 	for (size_t i = 0; i < wanted; ++i)
 		if (!isSound(dump, i))
 			return fail(ExitCode::CheckFailed, "item {} of the frame's {} full clusters and batches names what does not exist", i, wanted);

@@ -4,6 +4,8 @@
 #include "raster/dump_micro.h"
 #include "shared/domain.h"
 
+#include <span>
+
 namespace tessera
 {
 
@@ -27,8 +29,18 @@ struct FrameDump
 	std::vector<bool> part_is_drawn;      // false: found hidden by occlusion culling
 	std::vector<bool> cluster_is_drawn;   // the same of full_clusters
 	std::vector<DumpItem> items;          // full clusters (empty ones for those that are not drawn), then batches
+	std::vector<DumpVertex> vertices;     // of all items
+	std::vector<DumpTriangle> triangles;
 
 	bool isBatch(size_t item) const { return item >= full_clusters.size(); }
+	std::span<const DumpVertex> verticesOf(size_t item) const
+	{
+		return std::span(vertices).subspan(items[item].first_vertex, items[item].vertex_count);
+	}
+	std::span<const DumpTriangle> trianglesOf(size_t item) const
+	{
+		return std::span(triangles).subspan(items[item].first_triangle, items[item].triangle_count);
+	}
 };
 
 // Reads the last drawn round. Errors: DeviceLost, BadInput (out of memory), CheckFailed (the device wrote what cannot be: an item with too many

@@ -149,11 +149,15 @@ Result<bool> FrameResources::growDump()
 {
 	if (!has("micro_dump"))
 		return false;
+	const FrameCounts wanted = counts();
 	const uint64_t items = uint64_t(head(LIST_FULL_CLUSTERS).wanted) + (has("batches") ? head(LIST_BATCHES).wanted : 0);
-	if (items * sizeof(DumpItem) <= buffer("micro_dump").bytes())
+	if (items <= dump_.items && wanted.dump_vertices <= dump_.vertices && wanted.dump_triangles <= dump_.triangles)
 		return false;
+	const auto roomFor = [](uint64_t count, uint32_t held) {
+		return uint32_t(std::clamp<uint64_t>(count * 5 / 4, held, UINT32_MAX));
+	};
 	buffers_.erase("micro_dump");
-	TRY(allocate("micro_dump", items * 5 / 4 * sizeof(DumpItem)));
+	TRY(makeDump({ roomFor(items, dump_.items), roomFor(wanted.dump_vertices, dump_.vertices), roomFor(wanted.dump_triangles, dump_.triangles) }));
 	return true;
 }
 

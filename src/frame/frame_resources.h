@@ -1,5 +1,6 @@
 // Every buffer and image that a plan keeps, by the name that passes use; scene arrays are uploaded when first kept.
 #pragma once
+#include "frame/dump_layout.h"
 #include "frame/lists.h"
 #include "frame/rate_controller.h"
 #include "frame/stats.h"
@@ -14,9 +15,6 @@
 
 namespace tessera
 {
-
-// Items that micro_dump holds before a frame has shown how many it takes.
-constexpr uint64_t kFirstDumpItems = 1024;
 
 // Names and sizes of all resources, for the planner.
 std::span<const ResourceDesc> resourceDescs();
@@ -35,9 +33,10 @@ public:
 	// Makes a list that grows on demand hold `wanted`. True when its capacity has changed, or cannot any more and decides the rate from now
 	// on (decidingLists): the frame can be drawn again. False when nothing has changed.
 	bool grow(const ListDesc& list, uint32_t wanted, const PlanInput& input);
-	// Makes micro_dump, where it is kept, hold every item of the last submitted frame. True when it was too small: the frame
+	// Makes micro_dump, where it is kept, hold all of the last submitted frame. True when it was too small: the frame
 	// must be drawn again. Errors: BadInput (out of memory).
 	Result<bool> growDump();
+	const DumpLayout& dumpLayout() const { return dump_; }
 	// Records the uploads of a round. `makes_pyramid`: it writes a depth pyramid. `steps`: candidates of rate_search, empty where the plan has none.
 	Status writeView(const View& view, uint32_t round, bool makes_pyramid, std::span<const RateStep> steps = {});
 	// Records that what follows draws from another camera (drawnFrom).
@@ -81,6 +80,7 @@ private:
 	Status allocate(std::string_view name, uint64_t bytes);
 	Status allocateEmpty(std::string_view name, uint64_t bytes);
 	Status makeHeads();
+	Status makeDump(const DumpLayout& layout);
 	Status makeSurface(const FramePlan& plan);
 	Status makeShadingData(const FramePlan& plan);
 	Status makeHeightMaps(const PlanInput& input);
@@ -99,6 +99,7 @@ private:
 	std::vector<VkSampler> samplers_;
 	std::vector<Buffer> height_texels_;
 	Buffer readback_;
+	DumpLayout dump_ = kFirstDump;
 	std::array<uint32_t, LIST_COUNT> capacities_ = {};
 	uint32_t round_ = 0;
 	View view_ = {};

@@ -121,6 +121,20 @@ Status FrameResources::allocateEmpty(std::string_view name, uint64_t bytes)
 	return commands_->submitAndWait();
 }
 
+Status FrameResources::makeDump(const DumpLayout& layout)
+{
+	dump_ = layout;
+	TRY(allocate("micro_dump", layout.bytes()));
+	const uint64_t begin = address("micro_dump");
+	const DumpHead head = {
+		begin + layout.firstItem(), begin + layout.firstVertex(), begin + layout.firstTriangle(), layout.items, layout.vertices, layout.triangles, 0
+	};
+	TRY(commands_->begin());
+	vkCmdUpdateBuffer(commands_->buffer(), buffer("micro_dump").handle(), 0, sizeof head, &head);
+	fullBarrier(commands_->buffer());
+	return commands_->submitAndWait();
+}
+
 Status FrameResources::makeHeightMaps(const PlanInput& input)
 {
 	const bool kept_footprints = kHeightFootprints.holds(input);
@@ -257,7 +271,7 @@ Status FrameResources::make(std::string_view name, const PlanInput& input)
 	if (name == "kept_visibility")
 		return allocate(name, uint64_t(input.options.width_px) * input.options.height_px * 8);
 	if (name == "micro_dump")
-		return allocate(name, kFirstDumpItems * sizeof(DumpItem));
+		return makeDump(dump_);
 	if (name == "view")
 		return allocate(name, sizeof(View));
 	if (name == "rate_steps")

@@ -125,6 +125,7 @@ public:
 
 	const FramePlan& plan() const override { return plan_; }
 	const PlanInput& planInput() const override { return input_; }
+	const DumpLayout& dumpLayout() const override { return resources_->dumpLayout(); }
 	MemoryStats memory() const override { return resources_->memory(); }
 	const View& view() const override { return view_; }
 	const View& drawnView() const override { return drawn_from_ ? draw_view_ : view_; }

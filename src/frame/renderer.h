@@ -1,5 +1,6 @@
 // Draws frames of one scene on one device: plans, holds resources and pipelines, coarsens when a list would overflow.
 #pragma once
+#include "frame/dump_layout.h"
 #include "frame/stats.h"
 #include "gpu/device.h"
 #include "gpu/pipeline.h"
@@ -71,6 +72,8 @@ public:
 	// The plan of the last frame (before the first: of the framing camera).
 	virtual const FramePlan& plan() const = 0;
 	virtual const PlanInput& planInput() const = 0;
+	// Of micro_dump, where it is kept.
+	virtual const DumpLayout& dumpLayout() const = 0;
 	virtual MemoryStats memory() const = 0;
 	// The view of the last frame, as the shaders saw it: that it was tessellated for, and that it was drawn from.
 	virtual const View& view() const = 0;

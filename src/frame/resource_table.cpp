@@ -134,7 +134,7 @@ constexpr ResourceDesc kResources[] = {
 	{ "visibility_payload", "image", perPixel<4> },
 	{ "visibility_buffer", "image", perPixel<8> },
 	{ "kept_visibility", "image", perPixel<8> },
-	{ "micro_dump", "buffer", fixedBytes<kFirstDumpItems * sizeof(DumpItem)> },
+	{ "micro_dump", "buffer", fixedBytes<kFirstDump.bytes()> },
 	{ "frame_history", "buffer", fixedBytes<sizeof(FrameHistory)> },
 	{ "depth_pyramid", "buffer",
 	  [](const PlanInput& input) -> uint64_t {

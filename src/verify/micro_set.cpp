@@ -40,13 +40,12 @@ public:
 
 	void read(size_t index, MicroSet& set) const
 	{
-		const DumpItem& item = dump_.items[index];
-		for (uint32_t t = 0; t < item.triangle_count; ++t)
+		const std::span<const DumpVertex> vertices = dump_.verticesOf(index);
+		for (const DumpTriangle& triangle : dump_.trianglesOf(index))
 		{
-			const DumpTriangle& triangle = item.triangles[t];
 			std::array<const DumpVertex*, 3> corners;
 			for (uint32_t i = 0; i < 3; ++i)
-				corners[i] = &item.vertices[cornerOf(triangle, i)];
+				corners[i] = &vertices[cornerOf(triangle, i)];
 			MicroTriangle micro = dump_.isBatch(index) ? ofPart(triangle.payload, corners) : ofFullCluster(triangle.payload, corners);
 			turnToFirst(micro);
 			set.push_back(micro);

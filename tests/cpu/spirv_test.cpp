@@ -129,8 +129,8 @@ std::vector<HostLayout> hostLayouts()
 		LAYOUT(11, Surface, positions, directions, uvs, densities, triangles, first_seam_edges, seam_edges, seam_corner_indices, seam_corners,
 			   material_height_maps, height_maps),
 		LAYOUT(8, ListHead, group_width, group_rows, group_depth, wanted, capacity, peak, peak_used, unused),
-		LAYOUT(14, FrameCounts, overflow, covered_pixels, micro_low, micro_high, full_cluster_triangles, expanded_triangles, rate_step, listed_again,
-			   levels_missing, search_finished, second_batches, hidden_parts, revealed_parts, split_count),
+		LAYOUT(16, FrameCounts, overflow, covered_pixels, micro_low, micro_high, full_cluster_triangles, expanded_triangles, rate_step, listed_again,
+			   levels_missing, search_finished, second_batches, hidden_parts, revealed_parts, dump_vertices, dump_triangles, split_count),
 		LAYOUT(11, RateStep, rate_over_focal_squared, sample_over_focal_squared, rule, split_triangles, part_triangles, part_vertices,
 			   part_micro_triangles, full_clusters, full_vertices, full_micro_triangles, abandoned),
 		LAYOUT(3, ClusterGroup, instance, first_cluster, cluster_count),
@@ -147,7 +147,8 @@ std::vector<HostLayout> hostLayouts()
 		LAYOUT(2, FactorRule, table_size, max_split),
 		LAYOUT(5, DumpVertex, displaced, normal, owner, u, v),
 		LAYOUT(2, DumpTriangle, corners, payload),
-		LAYOUT(4, DumpItem, vertex_count, triangle_count, vertices, triangles),
+		LAYOUT(4, DumpItem, first_vertex, vertex_count, first_triangle, triangle_count),
+		LAYOUT(7, DumpHead, items, vertices, triangles, item_capacity, vertex_capacity, triangle_capacity, unused),
 	};
 }
 

@@ -26,9 +26,8 @@ static void record(PassContext& pass)
 	args.full_clusters = pass.address("full_clusters");
 	args.batches = pass.address("batches");
 	args.shading = pass.address("shading");
-	args.items = pass.address("micro_dump");
-	args.item_capacity = static_cast<uint32_t>(pass.bytes("micro_dump") / sizeof(DumpItem));
-	pass.dispatchLoop(args, args.item_capacity);
+	args.dump = pass.address("micro_dump");
+	pass.dispatchLoop(args, uint64_t(pass.capacity("batches")) + pass.capacity("full_clusters"));
 }
 
 static constexpr std::string_view kShaders[] = { "raster/dump_micro.comp" };

@@ -143,35 +143,40 @@ void addPictures(std::vector<Case>& cases)
 	}
 }
 
-// Every pixel of a picture too large to read back with what it sees: drawn with and without culling, the counts must agree.
+Result<uint32_t> coveredPixels(const SuiteDevice& suite, const BuiltScene& scene, uint32_t side, float rate, CullOptions cull)
+{
+	RenderOptions options;
+	options.rate = rate;
+	options.raster = suite.paths.front();
+	options.cull = cull;
+	options.width_px = options.height_px = side;
+	TRY_ASSIGN(auto renderer, Renderer::create(suite.device, scene, suite.table, framePasses(), options));
+	TRY_ASSIGN(const FrameResult frame, renderer->renderFrame(framingCamera(scene)));
+	return frame.counts.covered_pixels;
+}
+
+// A picture too large to read back with what each pixel sees. Culling must not change how many pixels are covered, and they must be the part of
+// the picture that a small one of the same micro-triangles covers, but for its fewer pixels along the outline.
 Result<Measured> drawLargest(const SuiteDevice& suite, const Case&, const BuiltScene& scene)
 {
 	Measured measured;
-	const uint32_t side = suite.device.limits.max_image_extent;
-	uint64_t covered = 0;
-	for (const bool cull : { false, true })
-	{
-		RenderOptions options;
-		options.rate = 64;
-		options.raster = suite.paths.front();
-		options.cull = cull ? CullOptions() : CullOptions{ false, false, false };
-		options.width_px = options.height_px = side;
-		TRY_ASSIGN(auto renderer, Renderer::create(suite.device, scene, suite.table, framePasses(), options));
-		TRY_ASSIGN(const FrameResult frame, renderer->renderFrame(framingCamera(scene)));
+	const uint32_t side = suite.device.limits.max_image_extent, small = 1024;
+	const float rate = 64;
+	const CullOptions uncut = { false, false, false };
+	TRY_ASSIGN(const uint32_t all, coveredPixels(suite, scene, side, rate, uncut));
+	TRY_ASSIGN(const uint32_t culled, coveredPixels(suite, scene, side, rate, {}));
+	TRY_ASSIGN(const uint32_t in_small, coveredPixels(suite, scene, small, rate * float(small) / float(side), uncut));
+	const auto judge = [&](bool holds, const std::string& what) {
 		++measured.checks;
-		if (cull && frame.counts.covered_pixels != covered)
-		{
-			++measured.violations;
-			measured.what = fmt::format("{} pixels are covered with culling, {} without", frame.counts.covered_pixels, covered);
-		}
-		covered = frame.counts.covered_pixels;
-	}
-	// A ball fills a third of the picture that frames it, at least.
-	if (covered < uint64_t(side) * side / 4)
-	{
+		if (holds)
+			return;
 		++measured.violations;
-		measured.what = fmt::format("only {} of {} x {} pixels are covered", covered, side, side);
-	}
+		measured.what = what;
+	};
+	judge(culled == all, fmt::format("{} pixels are covered with culling, {} without", culled, all));
+	const double part = all / (double(side) * side), expected = in_small / (double(small) * small);
+	judge(expected > 0.01 && std::abs(part / expected - 1) < 0.01,
+		  fmt::format("{:.4f} of {} x {} pixels are covered, {:.4f} of {} x {}", part, side, side, expected, small, small));
 	measured.worst = double(measured.violations);
 	return measured;
 }
