@@ -20,7 +20,7 @@ build_packages=(build-essential cmake ninja-build ccache pkg-config patchelf
 	nlohmann-json3-dev libstb-dev libdraco-dev zlib1g-dev libembree-dev libglfw3-dev libimgui-dev)
 run_packages=(librsvg2-bin)
 test_packages=(libgtest-dev libgmock-dev vulkan-validationlayers assimp-testmodels
-	xvfb xdotool imagemagick python3)
+	xvfb xdotool imagemagick python3 python3-xlib)
 all_packages=(clang clang-tidy clang-format libclang-rt-dev)
 
 say()  { echo "setup: $*"; }

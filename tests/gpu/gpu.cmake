@@ -21,9 +21,11 @@ foreach(name IN ITEMS verify_test verify_slow_test)
 endforeach()
 
 # The viewer as a user drives it, on a display without a screen. Exit code 77: a tool is missing (thirdparty/setup.sh installs them).
-find_package(Python3 COMPONENTS Interpreter REQUIRED)
+# The system's Python, not another one that comes first in the path: its packages are the system's.
+find_program(TESSERA_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
+find_program(TESSERA_PYTHON NAMES python3 REQUIRED)
 add_test(NAME viewer.doesWhatAScriptOfClicksAndKeysAsks
-         COMMAND ${Python3_EXECUTABLE} ${here}/../viewer/viewer_script.py $<TARGET_FILE:tessera> ${PROJECT_SOURCE_DIR})
+         COMMAND ${TESSERA_PYTHON} ${here}/../viewer/viewer_script.py $<TARGET_FILE:tessera> ${PROJECT_SOURCE_DIR})
 set_tests_properties(viewer.doesWhatAScriptOfClicksAndKeysAsks PROPERTIES LABELS gpu TIMEOUT 900 SKIP_RETURN_CODE 77
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 

@@ -6,11 +6,16 @@ import shutil
 import subprocess
 import time
 
+try:
+    from drop_source import DropSource
+except ImportError:
+    DropSource = None
+
 TOOLS = ("Xvfb", "xdotool", "import", "compare")
 
 
 def missing_tools():
-    return [tool for tool in TOOLS if shutil.which(tool) is None]
+    return [tool for tool in TOOLS if shutil.which(tool) is None] + ([] if DropSource else ["python3-xlib"])
 
 
 class Display:
@@ -152,6 +157,15 @@ class Viewer:
     def clear_field(self):
         self.keys("ctrl", "a")
         self.key("BackSpace")
+
+    def drop(self, path, x, y):
+        """A file, dragged from elsewhere and let go over a place on the screen."""
+        window = int(self.run("xdotool", "search", "--name", "^tessera").split()[0])
+        source = DropSource(self.environment["DISPLAY"])
+        try:
+            source.drop(window, x, y, path)
+        finally:
+            source.display.close()
 
     def picture(self, name):
         """Keeps a picture of the whole window when pictures are wanted."""

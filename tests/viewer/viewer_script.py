@@ -175,12 +175,12 @@ def reload_a_broken_shader(viewer, shaders):
     viewer.wait("the shader as it was", lambda s: s["shaders"]["reloads"] == 3, 120)
 
 
-def open_a_broken_file(viewer, folder):
+def drop_a_broken_file(viewer, folder):
     path = os.path.join(folder, "broken.gltf")
     with open(path, "w") as file:
         file.write('{ "asset": { "version": "2.0" }, "meshes": [ { "primitives": [ { "attributes": { "POSITION": 7 } } ] } ]')
     before = viewer.state()
-    open_scene(viewer, path)
+    viewer.drop(path, *middle(before))
     state = viewer.wait("the error", lambda s: "broken.gltf" in s["error"])
     assert "\n" not in state["error"] and state["error"] in state["warnings"]
     assert state["scene"] == before["scene"] and state["base_triangles"] == 20480, "the old scene stays"
@@ -251,7 +251,7 @@ def main():
         viewer = Viewer(program, ["--rate", "8", "--validate", "--shaders", shaders, "--settings", settings], folder, display, pictures)
         steps = [
             (start_without_argument,), (open_the_sphere, root, folder), (change_the_rate,), (switch_views,), (freeze_and_fly,), (overflow_a_list,),
-            (pick_a_triangle,), (reload_a_broken_shader, shaders), (open_a_broken_file, folder), (resize,),
+            (pick_a_triangle,), (reload_a_broken_shader, shaders), (drop_a_broken_file, folder), (resize,),
             (same_picture_as_render, program, folder),
         ]
         for step, *arguments in steps:
