@@ -141,7 +141,7 @@ Status FrameSource::readRound(uint32_t round, Capture& capture)
 	return {};
 }
 
-Result<Capture> FrameSource::capture(const Camera& camera, float rate_px)
+Result<Capture> FrameSource::capture(const Camera& camera, float rate_px, bool sorts)
 {
 	const OtherLimits other(device_, variation_);
 	Capture capture;
@@ -150,8 +150,11 @@ Result<Capture> FrameSource::capture(const Camera& camera, float rate_px)
 	capture.result = std::move(result);
 	capture.view = renderer_->view();
 	TRY_ASSIGN(capture.picture, renderer_->readPicture());
-	sortMicro(capture.micro);
-	sortDrawn(capture.drawn);
+	if (sorts)
+	{
+		sortMicro(capture.micro);
+		sortDrawn(capture.drawn);
+	}
 	return capture;
 }
 

@@ -34,8 +34,9 @@ public:
 													   const TessellationTable& table, const RenderOptions& options, bool with_micro,
 													   const Variation& variation, uint64_t seed);
 
-	// Draws a frame and reads it back. Errors: those of Renderer::renderFrame and readDump; CheckFailed when the device names what does not exist.
-	Result<Capture> capture(const Camera& camera, float rate_px);
+	// Draws a frame and reads it back; `sorts`: so that it can be compared with others. Errors: those of Renderer::renderFrame and readDump;
+	// CheckFailed when the device names what does not exist.
+	Result<Capture> capture(const Camera& camera, float rate_px, bool sorts = true);
 
 	const Variation& variation() const { return variation_; }
 

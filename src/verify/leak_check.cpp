@@ -56,7 +56,7 @@ void paint(const std::array<ScreenPoint, 3>& p, uint32_t width, uint32_t height,
 
 }  // namespace
 
-CheckResult checkLeaks(const Screen& screen, std::span<const MicroTriangle> set, const VisiblePicture& picture)
+Silhouette::Silhouette(const Screen& screen, std::span<const MicroTriangle> set) : width_(screen.width())
 {
 	std::vector<uint32_t> covered(size_t(screen.width()) * screen.height());
 	for (const MicroTriangle& t : set)
@@ -65,15 +65,22 @@ CheckResult checkLeaks(const Screen& screen, std::span<const MicroTriangle> set,
 		if (screen.project(t, points) && screen.shows(t, points))
 			paint(points, screen.width(), screen.height(), covered);
 	}
+	within_.reserve(covered.size());
+	for (const uint32_t samples : covered)
+		within_.push_back(samples == kAll);
+}
+
+CheckResult Silhouette::leaks(const VisiblePicture& picture) const
+{
 	CheckResult result;
-	for (size_t i = 0; i < covered.size() && i < picture.pixels.size(); ++i)
+	for (size_t i = 0; i < within_.size() && i < picture.pixels.size(); ++i)
 	{
-		if (covered[i] != kAll)
+		if (!within_[i])
 			continue;
 		++result.sums["pixels within the silhouette"];
 		if (!picture.pixels[i].covered())
-			result.violation(1, nowhere(fmt::format("pixel {}, {} shows the background through the surface", i % screen.width(), i / screen.width()),
-										static_cast<uint32_t>(i)));
+			result.violation(
+				1, nowhere(fmt::format("pixel {}, {} shows the background through the surface", i % width_, i / width_), static_cast<uint32_t>(i)));
 	}
 	return result;
 }

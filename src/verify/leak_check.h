@@ -6,9 +6,21 @@
 namespace tessera::verify
 {
 
-// `set`: every micro-triangle of the frame; `picture`: what its pixels see. A background pixel is a leak when micro-triangles cover its centre and
-// four points 1/16 pixel from it, found in double precision with one edge function for both sides of every edge, so that no point can fall
-// between two neighbours. Rasterisers may move a vertex by 1/256 pixel. Triangles that cross the near plane count as nothing.
-CheckResult checkLeaks(const Screen& screen, std::span<const MicroTriangle> set, const VisiblePicture& picture);
+// Which pixels lie wholly within what the micro-triangles of a frame cover: their centres and points around them up to 1/16 pixel away, found in
+// double precision with one edge function for both sides of every edge, so that no point can fall between two neighbours. Rasterisers may
+// move a vertex by 1/256 pixel. Triangles that cross the near plane count as nothing.
+class Silhouette
+{
+public:
+	// `set`: every micro-triangle of the frame.
+	Silhouette(const Screen& screen, std::span<const MicroTriangle> set);
+
+	// Background pixels of a picture of the same frame that lie within: each is a leak.
+	CheckResult leaks(const VisiblePicture& picture) const;
+
+private:
+	uint32_t width_;
+	std::vector<bool> within_;
+};
 
 }  // namespace tessera::verify

@@ -4,6 +4,11 @@
 #include "verify/leak_check.h"
 #include "verify/overlay.h"
 
+#include <algorithm>
+#include <deque>
+#include <future>
+#include <thread>
+
 namespace tessera::verify
 {
 
@@ -36,38 +41,71 @@ private:
 		return FrameSource::create(*request_.device, truth_, *request_.scene, *request_.table, options, with_micro, {}, request_.seed);
 	}
 
+	// The device draws views one after another; what it drew is looked at on all threads meanwhile.
 	Status runViews(Raster path, float rate)
 	{
 		TRY_ASSIGN(const auto uncut, source(request_.uncut_options, path, rate, true));
 		TRY_ASSIGN(const auto culled, source(request_.options, path, rate, false));
+		std::deque<std::future<ViewOutcome>> looked_at;
 		for (size_t i = 0; i < request_.cameras.size(); ++i)
 		{
 			if (i % kTellEvery == 0)
 				logInfo("--raster {}, rate {}: view {} of {}", rasterName(path), rate, i + 1, request_.cameras.size());
-			TRY(runView(request_.cameras[i], path, rate, *uncut, *culled));
+			const NamedCamera& camera = request_.cameras[i];
+			Drawn drawn = { &camera, {}, {} };
+			TRY_ASSIGN(drawn.all, uncut->capture(camera.camera, rate, false));
+			TRY_ASSIGN(drawn.seen, culled->capture(camera.camera, rate, false));
+			looked_at.push_back(std::async(std::launch::async, [this, path, rate, drawn = std::move(drawn)] { return look(drawn, path, rate); }));
+			if (looked_at.size() < 2 * std::max(std::thread::hardware_concurrency(), 1u))
+				continue;
+			add(looked_at.front().get());
+			looked_at.pop_front();
 		}
+		for (std::future<ViewOutcome>& view : looked_at)
+			add(view.get());
 		return {};
 	}
 
-	Status runView(const NamedCamera& camera, Raster path, float rate, FrameSource& uncut, FrameSource& culled)
+	// Without and with culling.
+	struct Drawn
 	{
-		TRY_ASSIGN(const Capture all, uncut.capture(camera.camera, rate));
-		TRY_ASSIGN(const Capture seen, culled.capture(camera.camera, rate));
-		CheckResult result = checkLeaks(Screen(truth_, all.view), all.micro, all.visible);
+		const NamedCamera* camera;
+		Capture all, seen;
+	};
+	struct ViewOutcome
+	{
+		CheckResult result;
+		FrameLine frame;
+		std::vector<uint8_t> picture;  // with its violations
+	};
+
+	ViewOutcome look(const Drawn& drawn, Raster path, float rate) const
+	{
+		const Capture &all = drawn.all, &seen = drawn.seen;
+		const Silhouette silhouette(Screen(truth_, all.view), all.micro);
+		ViewOutcome view;
+		view.result = silhouette.leaks(all.visible);
 		if (seen.result.rate_granted == all.result.rate_granted)
-			result.merge(checkLeaks(Screen(truth_, all.view), all.micro, seen.visible));
-		result.setFrame(fmt::format("camera {}, rate {}, {}", camera.name, rate, rasterName(path)));
-		++result.sums["views"];
-		const uint64_t violations = result.violations;
-		if (report_.picture.empty() || (violations > 0 && report_.violations() == 0))
+			view.result.merge(silhouette.leaks(seen.visible));
+		view.result.setFrame(fmt::format("camera {}, rate {}, {}", drawn.camera->name, rate, rasterName(path)));
+		++view.result.sums["views"];
+		view.frame = {
+			drawn.camera->name,    all.result.rate_wanted, all.result.rate_granted, all.result.every_factor_one, all.result.counts.micro_triangles,
+			all.visible.covered(), view.result.violations
+		};
+		view.picture = paintViolations(all.visible, all.picture, view.result);
+		return view;
+	}
+
+	void add(ViewOutcome view)
+	{
+		if (report_.picture.empty() || (view.frame.violations > 0 && report_.violations() == 0))
 		{
-			report_.picture = paintViolations(all.visible, all.picture, result);
-			report_.picture_frame = fmt::format("camera {}, rate {}", camera.name, rate);
+			report_.picture = std::move(view.picture);
+			report_.picture_frame = fmt::format("camera {}, rate {}", view.frame.camera, view.frame.rate_wanted);
 		}
-		report_.checks.front().result.merge(result);
-		report_.frames.push_back({ camera.name, all.result.rate_wanted, all.result.rate_granted, all.result.every_factor_one,
-								   all.result.counts.micro_triangles, all.visible.covered(), violations });
-		return {};
+		report_.checks.front().result.merge(view.result);
+		report_.frames.push_back(std::move(view.frame));
 	}
 
 	const Request& request_;

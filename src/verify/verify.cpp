@@ -165,7 +165,7 @@ private:
 			if (first.visible.pixels.empty() || !sameMicro(first, uncut, path.path))
 				checkGeometry(uncut);
 			const Screen screen(truth_, uncut.view);
-			add(kNoLeaks, checkLeaks(screen, uncut.micro, uncut.visible));
+			add(kNoLeaks, Silhouette(screen, uncut.micro).leaks(uncut.visible));
 			TRY(checkCulling(path, camera, rate, screen, uncut));
 			TRY(checkVariations(path, camera, rate, uncut));
 			if (first.visible.pixels.empty())

@@ -230,14 +230,14 @@ TEST(verifyChecks, aPixelOfBackgroundWithinTheSilhouetteIsALeak)
 {
 	const Drawn drawn(sphereScene(8, 12, TexelFormat::U8, Wrap::Repeat), 3);
 	VisiblePicture picture = painted(drawn);
-	const CheckResult sound = checkLeaks(drawn.screen(), drawn.set, picture);
+	const CheckResult sound = Silhouette(drawn.screen(), drawn.set).leaks(picture);
 	EXPECT_EQ(sound.violations, 0u) << describe(sound.place);
 	EXPECT_GT(sound.sums.at("pixels within the silhouette"), 500u);
 	size_t inside = 0;
 	while (!picture.pixels[inside + picture.width_px / 2 + picture.width_px * (picture.height_px / 2)].covered())
 		++inside;
 	picture.pixels[inside + picture.width_px / 2 + picture.width_px * (picture.height_px / 2)] = {};
-	EXPECT_EQ(checkLeaks(drawn.screen(), drawn.set, picture).violations, 1u);
+	EXPECT_EQ(Silhouette(drawn.screen(), drawn.set).leaks(picture).violations, 1u);
 }
 
 TEST(verifyChecks, cullingWhatIsSeenIsNotConservative)

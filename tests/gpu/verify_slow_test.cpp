@@ -20,9 +20,19 @@ void expectHolds(const std::string& arguments)
 
 }  // namespace
 
-TEST(verifySlow, noBackgroundShinesThroughAClosedMeshFromTenThousandPlaces)
+// Ten thousand are for a GPU: tests/verify_device.sh.
+TEST(verifySlow, noBackgroundShinesThroughAClosedMeshFromAThousandPlaces)
 {
-	expectHolds("builtin:planet --size 160x90 --rate 6 --leaks 10000");
+	expectHolds("builtin:planet --size 160x90 --rate 6 --leaks 1000 --raster soft");
+}
+
+// Every path, culling on and off, against the double-precision picture and each other: from within the mesh, near it, far off.
+TEST(verifySlow, everyPathSeesTheSameFromFiftyCamerasOfEveryScene)
+{
+	const std::string scenes = fmt::format("'{}/bench/scenes/", TESSERA_SOURCE_ROOT);
+	for (const std::string& scene : { std::string("builtin:planet"), std::string("builtin:terrain"), std::string("builtin:bricks"),
+									  std::string("builtin:cube"), scenes + "sphere.gltf'", scenes + "terrain.gltf'" })
+		expectHolds(scene + " --size 128x72 --rate 4 --cameras 50");
 }
 
 TEST(verifySlow, everyBuiltInSceneHoldsEveryPromise)
