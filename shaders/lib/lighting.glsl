@@ -38,15 +38,22 @@ vec3 skyLight(vec3 direction, float blur)
 	return mix(GROUND_COLOR, SKY_COLOR, smoothstep(-blur, blur, direction.y));
 }
 
+// How much of the light reaches a surface, 0..1: of the sun, and of all around.
+struct LightVisibility
+{
+	float sun;
+	float ambient;
+};
+
 // Light that a surface sends to the eye; all directions in world space, unit.
-vec3 litColor(SurfaceColor color, vec3 normal, vec3 to_eye)
+vec3 litColor(SurfaceColor color, vec3 normal, vec3 to_eye, LightVisibility visibility)
 {
 	float n_l = max(dot(normal, SUN_DIRECTION), 0.0);
 	vec3 diffuse = color.base * (1.0 - color.metallic);
-	vec3 light = diffuse * (SUN_COLOR * n_l / 3.14159265 + skyLight(normal, 1.0));
-	light += specular(color, normal, to_eye, SUN_DIRECTION) * SUN_COLOR * n_l;
+	vec3 light = diffuse * (SUN_COLOR * (n_l * visibility.sun) / 3.14159265 + skyLight(normal, 1.0) * visibility.ambient);
+	light += specular(color, normal, to_eye, SUN_DIRECTION) * SUN_COLOR * (n_l * visibility.sun);
 	vec3 f0 = mix(vec3(0.04), color.base, color.metallic);
-	light += f0 * skyLight(reflect(-to_eye, normal), mix(0.05, 1.0, color.roughness));
+	light += f0 * skyLight(reflect(-to_eye, normal), mix(0.05, 1.0, color.roughness)) * visibility.ambient;
 	return light + color.emissive;
 }
 

@@ -5,7 +5,11 @@
 #include "lib/frame_data.glsl"
 #include "shared/raster_inputs.h"
 
+#ifdef NEEDS_EXACT_PLACES  // the includer needs the corners in every view
+const bool EXACT_PLACES = true;
+#else
 const bool EXACT_PLACES = !(IS_SHADED_VIEW && HAS_SMOOTH_NORMALS);
+#endif
 
 struct VisibleTriangle
 {

@@ -1,4 +1,4 @@
-// draw_indexed: pass on the clip coordinates that evaluate_vertices wrote.
+// draw_indexed: pass on the micro-vertices that evaluate_vertices wrote.
 //
 //   in   micro_vertices   vec4[]
 //   out  visibility       depth and payload attachments, by draw_indexed.frag
@@ -9,8 +9,9 @@
 #include "lib/features.glsl"
 #include "lib/frame_data.glsl"
 #include "raster/draw_indexed.h"
+#include "lib/micro_vertices.glsl"
 
 layout(push_constant, scalar) uniform Args { DrawIndexedArgs args; };
 out gl_PerVertex { vec4 gl_Position; };
 
-void main() { gl_Position = args.vertices.at[gl_VertexIndex]; }
+void main() { gl_Position = clipOfKept(args.vertices.at[gl_VertexIndex]); }

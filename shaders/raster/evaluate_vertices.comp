@@ -1,9 +1,11 @@
 // evaluate_vertices: displace the micro-vertices of full clusters and batches, for the passes that draw them.
 //
 //   in   full_clusters, batches
-//   out  micro_vertices       vec4[]   clip coordinates; a batch's or cluster's range was taken when it was listed
-//   out  expanded_triangles   uint[]   only when drawn indexed: three indices per triangle for the whole list, then one
-//                                      payload per triangle; ranges are taken by atomics, so their order is free
+//   out  micro_vertices       vec4[]   clip coordinates, or places relative to the eye where rays are traced; a batch's or cluster's range was
+//                                      taken when it was listed. Behind the last one that the list can hold lies one more, for triangles that are not there
+//   out  expanded_triangles   uint[]   only when drawn indexed or traced: three indices per triangle for the whole list, then one
+//                                      payload per triangle; ranges are taken by atomics, so their order is free. A build takes its count
+//                                      from the host: triangles that it has and the frame has not get no area
 //
 // In compute and not in the mesh shader: some devices run mesh shaders on few of their processors, and the same vertices
 // serve the indexed draw. One workgroup takes one full cluster or batch at a time.
@@ -15,6 +17,7 @@ layout(local_size_x_id = 0) in;
 #include "lib/features.glsl"
 #include "lib/frame_data.glsl"
 #include "raster/evaluate_vertices.h"
+#include "lib/micro_vertices.glsl"
 #include "lib/work_item.glsl"
 
 layout(push_constant, scalar) uniform Args { EvaluateVerticesArgs args; };
@@ -39,7 +42,7 @@ void writeTriangle(uint triangle, uint first_vertex, uvec3 corners, uint payload
 void evaluateItem(WorkItem item)
 {
 	for (uint v = gl_LocalInvocationIndex; v < item.vertex_count; v += gl_WorkGroupSize.x)
-		args.vertices.at[item.first_vertex + v] = clipPosition(itemVertex(args.inputs, item, v), frame_view);
+		args.vertices.at[item.first_vertex + v] = keptVertex(itemVertex(args.inputs, item, v));
 	if (EXPANDS_TRIANGLES)
 	{
 		takeTriangles(item.triangle_count);
@@ -52,9 +55,24 @@ void evaluateItem(WorkItem item)
 	barrier();
 }
 
+// Triangles [first, args.traced_triangles) get the same vertex three times: no ray meets them. It lies at the eye, where boxes of nothing else
+// are met less than the near distance away.
+void deactivateTriangles(uint first)
+{
+	uint nowhere = args.heads.at[LIST_MICRO_VERTICES].capacity;
+	if (gl_GlobalInvocationID.x == 0u)
+		args.vertices.at[nowhere] = vec4(0.0, 0.0, 0.0, 1.0);
+	uint stride = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+	for (uint i = 3u * first + gl_GlobalInvocationID.x; i < 3u * args.traced_triangles; i += stride)
+		args.indices.at[i] = nowhere;
+}
+
 void main()
 {
-	if (args.counts.at[0].overflow != 0u)
+	bool overflow = args.counts.at[0].overflow != 0u;
+	if (HAS_RAYS)
+		deactivateTriangles(overflow ? 0u : args.heads.at[LIST_EXPANDED_TRIANGLES].wanted);
+	if (overflow)
 		return;
 	uint cluster_count = args.heads.at[LIST_FULL_CLUSTERS].wanted;
 	uint item_count = cluster_count + (HAS_TESSELLATION ? args.heads.at[LIST_BATCHES].wanted : 0u);

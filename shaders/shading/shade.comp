@@ -3,6 +3,7 @@
 //   in   visibility_depth, visibility_payload   from drawing passes; depth 0 is background
 //   in   visibility_buffer                      from raster_micro; emptied here for the next frame
 //   in   part_triangles, visible_clusters, surface, shading data
+//   in   sun_visibility, ambient_visibility     from trace_shadows and trace_ambient, where those run
 //   out  picture   RGBA8, sRGB-encoded
 //   out  counts    covered_pixels
 //
@@ -264,6 +265,12 @@ float errorPx(SurfacePixel pixel, vec2 centre, View view)
 	return length(surface - seen) * per_unit;
 }
 
+LightVisibility lightAt(vec2 centre, View view)
+{
+	uint index = uint(centre.y) * view.width_px + uint(centre.x);
+	return LightVisibility(HAS_SHADOWS ? args.sun_visibility.at[index] : 1.0, HAS_AMBIENT_OCCLUSION ? args.ambient_visibility.at[index] : 1.0);
+}
+
 vec3 debugColor(SurfacePixel pixel, float depth, vec2 centre, View view)
 {
 	VisibleTriangle visible = pixel.visible;
@@ -282,7 +289,7 @@ vec3 debugColor(SurfacePixel pixel, float depth, vec2 centre, View view)
 	case VIEW_AREA: return shaped(ramp((log2(max(areaPx(visible, view), 1e-6)) + 4.0) / 12.0), pixel);
 	case VIEW_ERROR: return ramp((log2(max(errorPx(pixel, centre, view), 1e-6)) + 6.0) / 10.0);
 	case VIEW_WIREFRAME: return wireframe(vec3(0.55) * (0.3 + 0.7 * max(dot(pixel.normal, pixel.to_eye), 0.0)), pixel, centre, view);
-	default: return litColor(materialColor(pixel), pixel.normal, pixel.to_eye);
+	default: return litColor(materialColor(pixel), pixel.normal, pixel.to_eye, lightAt(centre, view));
 	}
 }
 
@@ -329,7 +336,7 @@ bool shadePlace(uvec2 place, View view)
 		return true;
 	SurfacePixel pixel = surfacePixel(visibility.payload, visibility.depth, centre, view);
 	if (IS_SHADED_VIEW)
-		args.picture.at[target] = encodePicture(litColor(materialColor(pixel), pixel.normal, pixel.to_eye), true);
+		args.picture.at[target] = encodePicture(litColor(materialColor(pixel), pixel.normal, pixel.to_eye, lightAt(centre, view)), true);
 	else
 	{
 		vec3 color = debugColor(pixel, visibility.depth, centre, view);

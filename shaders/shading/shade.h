@@ -30,11 +30,13 @@ struct ShadeArgs
 	GPU_PTR(ShadingData) shading;
 	GPU_PTR(uint) picture;  // RGBA8, sRGB-encoded
 	GPU_PTR(FrameCounts) counts;
-	uint64_t visibility;  // address of a 64-bit word per pixel; 0 when attachments hold depth and payload
-	uint view_mode;       // VIEW_*
-	uint rounds;          // round | round_count << 16
+	uint64_t visibility;                // address of a 64-bit word per pixel; 0 when attachments hold depth and payload
+	uint view_mode;                     // VIEW_*
+	uint rounds;                        // round | round_count << 16
+	GPU_PTR(float) sun_visibility;      // per pixel, 0..1; 0: no shadows are traced
+	GPU_PTR(float) ambient_visibility;  // 0: no ambient occlusion is traced
 };
-SHARED_LAYOUT(ShadeArgs, 112, rounds, 108)
+SHARED_LAYOUT(ShadeArgs, 128, ambient_visibility, 120)
 
 SHARED_END
 

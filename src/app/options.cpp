@@ -21,6 +21,7 @@ constexpr double kMostLength = 1e30;     // world units
 constexpr double kMostShown = 1e9;       // ranges that end higher are left out of --help
 
 constexpr std::string_view kMetricNames[] = { "edge" };
+constexpr std::string_view kOffOnNames[] = { "off", "on" };
 constexpr std::string_view kShadingNames[] = { "smooth", "flat" };
 constexpr std::string_view kViewNames[] = { "shaded", "clusters", "parts",     "triangles", "factors",    "depth", "normals", "wireframe",
 											"facets", "height",   "instances", "materials", "primitives", "area",  "error" };
@@ -213,6 +214,11 @@ const std::array kTable = {
 							options.smooth_normals = index == 0;
 						} },
 				0, 0, Rebuild::Pipelines },
+	OptionDesc{ "shadows", "on|off", "the sun's light is traced by rays (needs a device with ray tracing pipelines)",
+				choiceOf<&AppOptions::shadows>(kOffOnNames), 0, 0, Rebuild::Buffers },
+	OptionDesc{ "ao", "SAMPLES", "ambient occlusion: rays per pixel; 0 = none", &AppOptions::ao_samples, 0, 4096, Rebuild::Buffers },
+	OptionDesc{ "ao-radius", "DISTANCE", "what is farther does not occlude, in world units; 0 = a tenth of the scene's radius",
+				&AppOptions::ao_radius_world, 0, kMostLength },
 	OptionDesc{ "cluster-size", "VERTICESxTRIANGLES", "most of each in a cluster, up to 128x128",
 				Custom{ parseClusterSize, printPair<&AppOptions::cluster_vertices, &AppOptions::cluster_triangles>,
 						pairJson<&AppOptions::cluster_vertices, &AppOptions::cluster_triangles> },

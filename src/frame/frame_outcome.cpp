@@ -40,6 +40,9 @@ void fillLists(const FrameResources& resources, FrameResult& result)
 		const ListHead head = resources.head(list.index);
 		result.lists.push_back({ std::string(list.name), head.wanted, head.capacity, head.peak, head.peak_used, listBytes(list, head.capacity) });
 	}
+	result.rays = resources.rays().stats(resources.head(LIST_EXPANDED_TRIANGLES).wanted);
+	if (result.rays.traced)
+		result.lists.push_back(result.rays.triangles);
 }
 
 void growNearlyFull(FrameResources& resources, const PlanInput& input)

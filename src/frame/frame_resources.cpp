@@ -73,7 +73,24 @@ Status FrameResources::prepare(const FramePlan& plan, const PlanInput& input)
 	}
 	if (has("frame_history"))
 		bindless_->writeUniform(6, buffer("frame_history").handle());
+	TRY(prepareRays(plan, input));
 	return lists_changed ? makeHeads() : Status{};
+}
+
+Status FrameResources::prepareRays(const FramePlan& plan, const PlanInput& input)
+{
+	if (!plan.keeps("ray_scene"))
+	{
+		rays_.drop();
+		return {};
+	}
+	const RayInputs inputs = { address("micro_vertices"),
+							   address("expanded_triangles"),
+							   address("ray_instances"),
+							   capacities_[LIST_MICRO_VERTICES],
+							   capacities_[LIST_EXPANDED_TRIANGLES],
+							   1 };
+	return rays_.prepare(inputs, input, *bindless_);
 }
 
 void FrameResources::dropUnkept(const FramePlan& plan)
@@ -96,12 +113,12 @@ Status FrameResources::refit(const PlanInput& before, const PlanInput& after)
 	if (was.width_px != is.width_px || was.height_px != is.height_px)
 	{
 		has_pyramid_ = false;
-		for (const char* name : { "picture", "visibility_buffer", "kept_visibility", "depth_pyramid" })
+		for (const char* name : { "picture", "visibility_buffer", "kept_visibility", "depth_pyramid", "sun_visibility", "ambient_visibility" })
 			buffers_.erase(name);
 		images_.clear();
 	}
 	const bool same_lists = was.capacities == is.capacities && was.lists_bytes == is.lists_bytes && chosenRaster(before) == chosenRaster(after) &&
-							(was.rate > 0) == (is.rate > 0);
+							tracesRays(before) == tracesRays(after) && (was.rate > 0) == (is.rate > 0);
 	if (same_lists)
 		return {};
 	capacities_ = capacities;
@@ -118,15 +135,17 @@ bool FrameResources::grow(const ListDesc& list, uint32_t wanted, const PlanInput
 	const std::string name(list.name);
 	if (!growsOnDemand(list) || !has(name) || (decidingLists(input) >> list.index & 1))
 		return false;
-	const uint64_t capacity = std::min<uint64_t>(uint64_t(wanted) * 5 / 4, mostEntries(list));
+	uint64_t capacity = std::min<uint64_t>(uint64_t(wanted) * 5 / 4, mostEntries(list));
+	if (list.index == LIST_EXPANDED_TRIANGLES && kRays.holds(input))
+		capacity = std::min(capacity, device_.limits.most_structure_triangles);
 	buffers_.erase(name);
-	auto made = Buffer::create(device_, listBytes(list, static_cast<uint32_t>(capacity)), MemoryKind::Device, name);
+	auto made = Buffer::create(device_, listBufferBytes(list, static_cast<uint32_t>(capacity)), MemoryKind::Device, name);
 	if (made)
 	{
 		buffers_[name] = std::move(*made);
 		capacities_[list.index] = static_cast<uint32_t>(capacity);
 	}
-	else if (!allocate(name, listBytes(list, capacities_[list.index])))
+	else if (!allocate(name, listBufferBytes(list, capacities_[list.index])))
 		return false;
 	if (!made || capacity < wanted)
 		fixed_lists_ |= 1u << list.index;
@@ -159,6 +178,11 @@ Result<bool> FrameResources::growDump()
 	buffers_.erase("micro_dump");
 	TRY(makeDump({ roomFor(items, dump_.items), roomFor(wanted.dump_vertices, dump_.vertices), roomFor(wanted.dump_triangles, dump_.triangles) }));
 	return true;
+}
+
+bool FrameResources::growRays()
+{
+	return rays_.exists() && rays_.reserveFor(head(LIST_EXPANDED_TRIANGLES).wanted);
 }
 
 void FrameResources::writeHistory(const View& view, bool makes_pyramid)
@@ -262,8 +286,11 @@ MemoryStats FrameResources::memory() const
 	{
 		if (findList(name) || name == "heads" || name == "counts" || name == "rate_steps" || name == "part_places" || name == "window_seen")
 			memory.lists += held.bytes();
-		else if (name == "picture" || name == "visibility_buffer" || name == "kept_visibility" || name == "depth_pyramid")
+		else if (name == "picture" || name == "visibility_buffer" || name == "kept_visibility" || name == "depth_pyramid" ||
+				 name == "sun_visibility" || name == "ambient_visibility")
 			memory.images += held.bytes();
+		else if (name == "ray_instances")
+			memory.rays += held.bytes();
 		else
 			memory.geometry += held.bytes();
 	}
@@ -273,6 +300,7 @@ MemoryStats FrameResources::memory() const
 		memory.textures += texture.bytes();
 	for (const Buffer& texels : height_texels_)
 		memory.textures += texels.bytes();
+	memory.rays += rays_.stats(0).total();
 	return memory;
 }
 

@@ -3,6 +3,7 @@
 #include "frame/dump_layout.h"
 #include "frame/lists.h"
 #include "frame/rate_controller.h"
+#include "frame/ray_structures.h"
 #include "frame/stats.h"
 #include "gpu/commands.h"
 #include "gpu/pipeline.h"
@@ -37,6 +38,8 @@ public:
 	// must be drawn again. Errors: BadInput (out of memory).
 	Result<bool> growDump();
 	const DumpLayout& dumpLayout() const { return dump_; }
+	// The same for what rays are traced through: true when the last submitted frame had more micro-triangles than that was built of.
+	bool growRays();
 	// Records the uploads of a round. `makes_pyramid`: it writes a depth pyramid. `steps`: candidates of rate_search, empty where the plan has none.
 	Status writeView(const View& view, uint32_t round, bool makes_pyramid, std::span<const RateStep> steps = {});
 	// Records that what follows draws from another camera (drawnFrom).
@@ -62,6 +65,7 @@ public:
 	BindlessSet& bindless() { return *bindless_; }
 	CommandRecorder& commands() { return *commands_; }
 	MemoryStats memory() const;
+	const RayStructures& rays() const { return rays_; }
 
 	// Heads and counts of the last submitted frame; valid after readCounts was recorded and waited for.
 	void recordCountsReadback(VkCommandBuffer commands) const;
@@ -71,10 +75,11 @@ public:
 	Result<std::vector<std::byte>> read(std::string_view name, uint64_t bytes);
 
 private:
-	FrameResources(Device& device, const BuiltScene& scene, const TessellationTable& table) : device_(device), scene_(scene), table_(table) {}
+	FrameResources(Device& device, const BuiltScene& scene, const TessellationTable& table) : device_(device), scene_(scene), table_(table), rays_(device) {}
 	// Which of the two pyramids is this frame's, and what the frame before it saw.
 	void writeHistory(const View& view, bool makes_pyramid);
 	void dropUnkept(const FramePlan& plan);
+	Status prepareRays(const FramePlan& plan, const PlanInput& input);
 	Status make(std::string_view name, const PlanInput& input);
 	Status upload(std::string_view name, std::span<const std::byte> bytes);
 	Status allocate(std::string_view name, uint64_t bytes);
@@ -98,6 +103,7 @@ private:
 	std::vector<ImageResource> textures_;
 	std::vector<VkSampler> samplers_;
 	std::vector<Buffer> height_texels_;
+	RayStructures rays_;
 	Buffer readback_;
 	DumpLayout dump_ = kFirstDump;
 	std::array<uint32_t, LIST_COUNT> capacities_ = {};

@@ -5,6 +5,7 @@
 #include "frame/height_footprints.h"
 #include "plan/conditions.h"
 #include "raster/dump_micro.h"
+#include "raytracing/place_instances.h"
 #include "shading/material_record.h"
 
 #include <algorithm>
@@ -232,7 +233,7 @@ Status FrameResources::make(std::string_view name, const PlanInput& input)
 	if (makesSceneArray(name, status))
 		return status;
 	if (const ListDesc* list = findList(name))
-		return allocate(name, listBytes(*list, capacities_[list->index]));
+		return allocate(name, listBufferBytes(*list, capacities_[list->index]));
 	const ImageDesc size = { std::string(name), VK_FORMAT_R32_UINT, input.options.width_px, input.options.height_px };
 	if (name == "visibility_payload")
 	{
@@ -288,7 +289,11 @@ Status FrameResources::make(std::string_view name, const PlanInput& input)
 		return allocateEmpty(name, 2 * pyramidBytes(input));
 	if (name == "indexed_draw")
 		return allocate(name, 20);
-	CHECK(name == "heads" || name == "surface" || name == "shading" || name == "height_texels", "nobody makes resource '{}'", name);
+	if (name == "sun_visibility" || name == "ambient_visibility")
+		return allocate(name, uint64_t(input.options.width_px) * input.options.height_px * sizeof(float));
+	if (name == "ray_instances")
+		return allocate(name, sizeof(RayInstance));
+	CHECK(name == "ray_geometry" || name == "ray_scene" || name == "ray_scratch" || name == "heads" || name == "surface" || name == "shading" || name == "height_texels", "nobody makes resource '{}'", name);
 	return {};
 }
 

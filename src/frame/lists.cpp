@@ -46,7 +46,7 @@ uint64_t sceneBound(const ListDesc& list, const PlanInput& input)
 // batch that is not the last of its window and phase holds at least as many parts as of the largest patterns fit.
 uint32_t mostBatches(uint32_t parts, const PlanInput& input)
 {
-	if (!usesSoft(input))
+	if (!kBuffered.holds(input))
 		return parts;
 	constexpr uint32_t kLeastParts = std::min(RASTER_BATCH_VERTICES / BATCH_MAX_VERTICES, RASTER_BATCH_TRIANGLES / BATCH_MAX_TRIANGLES);
 	return parts / kLeastParts + 2 * (parts / BATCH_WINDOW + 1);
@@ -118,7 +118,7 @@ Result<Capacities> capacitiesWithin(uint64_t bytes, const PlanInput& input)
 	const uint64_t least = bytesOfLists(capacitiesFor(1, 1, input), input);
 	if (bytes < least)
 		return fail(ExitCode::Usage, "--budget: {} bytes are too few, the smallest lists of this scene and raster path take {}", bytes, least);
-	const uint64_t clusters_bytes = least + (bytes - least) / (input.options.rate > 0 || !usesSoft(input) ? 4 : 1);
+	const uint64_t clusters_bytes = least + (bytes - least) / (input.options.rate > 0 || kKeepsVertices.holds(input) ? 4 : 1);
 	const uint64_t clusters =
 		std::max<uint64_t>(1, largest(kIndexLimit, [&](uint64_t n) { return bytesOfLists(capacitiesFor(1, n, input), input) <= clusters_bytes; }));
 	const uint64_t parts =
@@ -159,6 +159,11 @@ uint64_t listBytes(const ListDesc& list, uint32_t capacity)
 	return uint64_t(list.record_bytes) * capacity;
 }
 
+uint64_t listBufferBytes(const ListDesc& list, uint32_t capacity)
+{
+	return listBytes(list, capacity) + (list.index == LIST_MICRO_VERTICES ? list.record_bytes : 0);
+}
+
 uint64_t bytesOfLists(const std::array<uint32_t, LIST_COUNT>& capacities, const PlanInput& input)
 {
 	const bool tessellates = input.options.rate > 0;
@@ -167,10 +172,10 @@ uint64_t bytesOfLists(const std::array<uint32_t, LIST_COUNT>& capacities, const 
 	{
 		const bool of_parts = list.index == LIST_SPLIT_TRIANGLES || list.index == LIST_PART_TRIANGLES || list.index == LIST_BATCHES;
 		const bool needed = of_parts                                ? tessellates
-							: list.index == LIST_MICRO_VERTICES     ? !usesSoft(input)
-							: list.index == LIST_EXPANDED_TRIANGLES ? usesIndexed(input)
+							: list.index == LIST_MICRO_VERTICES     ? kKeepsVertices.holds(input)
+							: list.index == LIST_EXPANDED_TRIANGLES ? kExpands.holds(input)
 																	: true;
-		bytes += needed ? listBytes(list, capacities[list.index]) + 16 : 0;  // buffers are whole words of 16 bytes
+		bytes += needed ? listBufferBytes(list, capacities[list.index]) + 16 : 0;  // buffers are whole words of 16 bytes
 	}
 	if (tessellates)
 		bytes += kMostRateSteps * sizeof(RateStep) + uint64_t(capacities[LIST_PART_TRIANGLES]) * sizeof(PartPlace) + 16 +

@@ -39,5 +39,7 @@ uint64_t bytesOfLists(const std::array<uint32_t, LIST_COUNT>& capacities, const 
 
 // Bytes of a list's buffer at its capacity.
 uint64_t listBytes(const ListDesc& list, uint32_t capacity);
+// Of the buffer that holds it: micro_vertices has one entry more, that of triangles that are not there.
+uint64_t listBufferBytes(const ListDesc& list, uint32_t capacity);
 
 }  // namespace tessera

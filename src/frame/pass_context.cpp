@@ -33,6 +33,34 @@ uint32_t PassContext::rateStepCount() const
 	return resources_.rateStepCount();
 }
 
+uint32_t PassContext::tracedTriangles() const
+{
+	return resources_.rays().reserved();
+}
+
+uint64_t PassContext::tracedGeometry() const
+{
+	return resources_.rays().geometryAddress();
+}
+
+void PassContext::build(std::string_view structure) const
+{
+	const auto& uses = step_.pass->uses;
+	CHECK(std::any_of(uses.begin(), uses.end(), [&](const Use& use) { return use.resource == structure && use.access == Access::BuildWrite; }),
+		  "pass {} builds '{}' without declaring it", step_.pass->name, structure);
+	if (structure == "ray_geometry")
+		resources_.rays().recordGeometry(commands_);
+	else
+		resources_.rays().recordScene(commands_);
+}
+
+void PassContext::tracePixels() const
+{
+	const RayTable& table = pipeline_.rayTable();
+	const VkStridedDeviceAddressRegionKHR callable = {};
+	device_.functions.trace_rays(commands_, &table.raygen, &table.miss, &table.hit, &callable, input_.options.width_px, input_.options.height_px, 1);
+}
+
 uint32_t PassContext::decidingLists() const
 {
 	return resources_.decidingLists(input_);

@@ -29,6 +29,8 @@ public:
 	uint32_t round() const;
 	FactorRule factorRule() const;
 	uint32_t rateStepCount() const;
+	uint32_t tracedTriangles() const;  // that the frame's structure is built of, inactive ones included
+	uint64_t tracedGeometry() const;   // device address of that structure
 	uint32_t decidingLists() const;  // bit per list whose capacity limits the rate
 
 	// Arguments go into the push constants of every stage.
@@ -46,6 +48,16 @@ public:
 	}
 	uint32_t capacity(std::string_view list) const;
 	uint64_t bytes(std::string_view buffer) const;
+
+	// Builds the structure of this name, declared as BuildWrite with the scratch memory.
+	void build(std::string_view structure) const;
+	// One ray generation thread per pixel.
+	template <typename Args>
+	void traceRays(const Args& args) const
+	{
+		push(args);
+		tracePixels();
+	}
 
 	// Draws into the visibility attachments. Rows of mesh workgroups come from the head of `list`.
 	template <typename Args>
@@ -75,6 +87,7 @@ private:
 	void pushBytes(const void* bytes, size_t count) const;
 	void dispatchGroups(uint32_t groups_x, uint32_t groups_y) const;
 	uint32_t loopGroups(uint64_t most, uint32_t items_per_group) const;
+	void tracePixels() const;
 	void beginDraw() const;
 	void drawListRows(std::string_view list) const;
 	void drawIndirect(std::string_view indices, std::string_view arguments) const;

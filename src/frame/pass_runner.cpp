@@ -45,6 +45,16 @@ StageAccess stageAccessOf(Access access)
 	case Access::Depth:
 		return { VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
 				 VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT };
+	case Access::BuildRead:
+		return { VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR,
+				 VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR };
+	case Access::BuildWrite:
+		return { VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR,
+				 VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR | VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR };
+	case Access::RayRead:
+		return { VK_PIPELINE_STAGE_2_RAY_TRACING_SHADER_BIT_KHR, kRead | VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR };
+	case Access::RayWrite:
+		return { VK_PIPELINE_STAGE_2_RAY_TRACING_SHADER_BIT_KHR, kRead | kWrite };
 	case Access::CopyRead:
 		return { VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT };
 	case Access::CopyWrite:
@@ -159,7 +169,7 @@ Result<const Shader*> PassRunner::shader(std::string_view name)
 
 Result<PassRunner::PipelineKey> PassRunner::keyOf(const PassDesc& pass, const FramePlan& plan)
 {
-	PipelineKey key = { pass.shaders.front(), {} };
+	PipelineKey key = { pass.shaders.empty() ? std::string_view() : pass.shaders.front(), {} };
 	for (std::string_view name : pass.shaders)
 	{
 		TRY(load(name, shaders_));
@@ -180,6 +190,17 @@ Status PassRunner::makePipeline(const PassDesc& pass, const PipelineKey& key, co
 	for (std::string_view name : pass.shaders)
 		shaders.push_back(shaders_.find(name)->second.shader);
 	const VkPipelineLayout layout = resources_.bindless().layout();
+	if (shaders.empty())
+	{
+		pipelines_[key] = Pipeline();
+		return {};
+	}
+	if (shaders.front().stage == VK_SHADER_STAGE_RAYGEN_BIT_KHR)
+	{
+		TRY_ASSIGN(Pipeline made, makeRayPipeline(device_, resources_.commands(), layout, shaders, key.second));
+		pipelines_[key] = std::move(made);
+		return {};
+	}
 	if (shaders.size() == 1)
 	{
 		TRY_ASSIGN(Pipeline made, makeComputePipeline(device_, layout, shaders.front(), key.second));
@@ -234,8 +255,9 @@ Status PassRunner::record(const FramePlan& plan, const PlanInput& input, const V
 	const VkCommandBuffer commands = resources_.commands().buffer();
 	vkResetQueryPool(device_.handle, queries_, 0, kMostSteps + 1);
 	const VkDescriptorSet set = resources_.bindless().set();
-	for (VkPipelineBindPoint point : { VK_PIPELINE_BIND_POINT_COMPUTE, VK_PIPELINE_BIND_POINT_GRAPHICS })
-		vkCmdBindDescriptorSets(commands, point, resources_.bindless().layout(), 0, 1, &set, 0, nullptr);
+	for (VkPipelineBindPoint point : { VK_PIPELINE_BIND_POINT_COMPUTE, VK_PIPELINE_BIND_POINT_GRAPHICS, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR })
+		if (point != VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR || resources_.rays().exists())
+			vkCmdBindDescriptorSets(commands, point, resources_.bindless().layout(), 0, 1, &set, 0, nullptr);
 	step_count_ = plan.steps.size();
 	stamp(0);
 	for (size_t i = 0; i < plan.steps.size(); ++i)

@@ -2,6 +2,7 @@
 #include "frame/frame_resources.h"
 #include "plan/conditions.h"
 #include "raster/dump_micro.h"
+#include "raytracing/place_instances.h"
 #include "shading/material_record.h"
 #include "shared/history.h"
 
@@ -62,6 +63,13 @@ uint64_t ofList(const PlanInput& input)
 		if (desc.index == list && capacities)
 			return listBytes(desc, (*capacities)[list]);
 	return 0;
+}
+
+// Of what rays are traced through, before a frame has shown how many triangles it has.
+template <auto bytes_per_triangle>
+uint64_t ofTriangles(const PlanInput& input)
+{
+	return static_cast<uint64_t>(double(std::min<uint64_t>(input.scene.instanced_triangles, kFirstTriangles)) * (input.device.*bytes_per_triangle));
 }
 
 constexpr ResourceDesc kResources[] = {
@@ -130,6 +138,15 @@ constexpr ResourceDesc kResources[] = {
 	{ "micro_vertices", "list", ofList<LIST_MICRO_VERTICES> },
 	{ "expanded_triangles", "list", ofList<LIST_EXPANDED_TRIANGLES> },
 	{ "indexed_draw", "buffer", fixedBytes<20> },
+	{ "ray_instances", "list", fixedBytes<sizeof(RayInstance)> },
+	{ "ray_geometry", "structure", ofTriangles<&DeviceTraits::structure_triangle_bytes> },
+	{ "ray_scene", "structure",
+	  [](const PlanInput& input) -> uint64_t {
+		  return static_cast<uint64_t>(input.device.structure_instance_bytes);
+	  } },
+	{ "ray_scratch", "structure", ofTriangles<&DeviceTraits::structure_scratch_bytes> },
+	{ "sun_visibility", "image", perPixel<4> },
+	{ "ambient_visibility", "image", perPixel<4> },
 	{ "visibility_depth", "image", perPixel<4> },
 	{ "visibility_payload", "image", perPixel<4> },
 	{ "visibility_buffer", "image", perPixel<8> },

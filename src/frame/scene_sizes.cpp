@@ -1,4 +1,5 @@
 #include "frame/height_footprints.h"
+#include "frame/ray_structures.h"
 #include "frame/renderer.h"
 #include "shared/lists.h"
 
@@ -31,13 +32,27 @@ SceneSizes sizesOf(const BuiltScene& scene)
 	sizes.seam_edges = scene.seam_edges.size();
 	sizes.seam_corners = scene.seam_corners.size();
 	sizes.height_maps = scene.height_maps.size();
+	sizes.world_radius = boundingRadius(scene);
 	return sizes;
 }
 
 DeviceTraits traitsOf(const Device& device)
 {
-	return { device.gates.mesh_shader, device.gates.buffer_atomics_64, device.gates.fragment_primitive_id, device.is_cpu,
-			 device.limits.most_footprint_bytes };
+	DeviceTraits traits = { device.gates.mesh_shader, device.gates.buffer_atomics_64, device.gates.fragment_primitive_id, device.is_cpu,
+							device.limits.most_footprint_bytes };
+	traits.rays = device.gates.rays();
+	if (!traits.rays)
+		return traits;
+	TriangleInput triangles;
+	triangles.vertex_stride_bytes = 16;
+	triangles.most_vertex = 2 * kFirstTriangles;
+	triangles.triangle_count = kFirstTriangles;
+	const StructureBuild::Sizes geometry = StructureBuild(triangles, {}).sizes(device),
+								scene = StructureBuild(InstanceInput{ 0, 1 }, {}).sizes(device);
+	traits.structure_triangle_bytes = double(geometry.structure_bytes) / kFirstTriangles;
+	traits.structure_scratch_bytes = double(geometry.build_scratch_bytes) / kFirstTriangles;
+	traits.structure_instance_bytes = double(scene.structure_bytes);
+	return traits;
 }
 
 }  // namespace tessera

@@ -23,6 +23,17 @@ struct ListStats
 	uint64_t bytes = 0;
 };
 
+// What rays were traced through.
+struct RayStats
+{
+	bool traced = false;
+	ListStats triangles;               // wanted: those of the frame; capacity: those that the structure is built of
+	uint64_t geometry_bytes = 0;       // reserved
+	uint64_t geometry_used_bytes = 0;  // what the driver asks for as many as the frame has
+	uint64_t scene_bytes = 0, scratch_bytes = 0;
+	uint64_t total() const { return geometry_bytes + scene_bytes + scratch_bytes; }
+};
+
 struct FrameCountsRead
 {
 	uint64_t full_clusters = 0;
@@ -46,12 +57,14 @@ struct FrameResult
 	uint32_t attempts = 1;  // 1: the device found a rate that fits, or needed none; more: rounds, or packings that grew
 	FrameCountsRead counts;
 	std::vector<ListStats> lists;
+	RayStats rays;
 };
 
 struct MemoryStats
 {
 	uint64_t lists = 0, geometry = 0, textures = 0, images = 0;
-	uint64_t total() const { return lists + geometry + textures + images; }
+	uint64_t rays = 0;  // acceleration structures, their instances and scratch memory
+	uint64_t total() const { return lists + geometry + textures + images + rays; }
 };
 
 }  // namespace tessera

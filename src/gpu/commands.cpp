@@ -114,10 +114,11 @@ void toGeneralLayout(VkCommandBuffer commands, const ImageResource& image)
 	vkCmdPipelineBarrier2(commands, &info);
 }
 
-Result<Buffer> uploadBuffer(Device& device, CommandRecorder& commands, std::span<const std::byte> bytes, const std::string& name)
+Result<Buffer> uploadBuffer(Device& device, CommandRecorder& commands, std::span<const std::byte> bytes, const std::string& name,
+							VkBufferUsageFlags more_usage)
 {
 	constexpr uint64_t kPieceBytes = uint64_t(64) << 20;
-	TRY_ASSIGN(Buffer buffer, Buffer::create(device, bytes.size(), MemoryKind::Device, name));
+	TRY_ASSIGN(Buffer buffer, Buffer::create(device, bytes.size(), MemoryKind::Device, name, more_usage));
 	if (bytes.empty())
 		return buffer;
 	TRY_ASSIGN(const Buffer staging, Buffer::create(device, std::min<uint64_t>(kPieceBytes, bytes.size()), MemoryKind::Upload, name + " staging"));

@@ -35,7 +35,8 @@ private:
 };
 
 // Copies bytes into a new device-local buffer, in pieces through one staging buffer.
-Result<Buffer> uploadBuffer(Device& device, CommandRecorder& commands, std::span<const std::byte> bytes, const std::string& name);
+Result<Buffer> uploadBuffer(Device& device, CommandRecorder& commands, std::span<const std::byte> bytes, const std::string& name,
+							VkBufferUsageFlags more_usage = 0);
 
 // Orders everything before it before everything after it: for uploads and readbacks only.
 void fullBarrier(VkCommandBuffer commands);

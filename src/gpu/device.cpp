@@ -211,6 +211,18 @@ struct DeviceBuilder
 	{
 		if (device.gates.mesh_shader)
 			load(device, device.functions.draw_mesh_tasks_indirect, "vkCmdDrawMeshTasksIndirectEXT");
+		if (device.gates.rays())
+		{
+			ExtensionFunctions& functions = device.functions;
+			load(device, functions.create_acceleration_structure, "vkCreateAccelerationStructureKHR");
+			load(device, functions.destroy_acceleration_structure, "vkDestroyAccelerationStructureKHR");
+			load(device, functions.acceleration_structure_sizes, "vkGetAccelerationStructureBuildSizesKHR");
+			load(device, functions.acceleration_structure_address, "vkGetAccelerationStructureDeviceAddressKHR");
+			load(device, functions.build_acceleration_structures, "vkCmdBuildAccelerationStructuresKHR");
+			load(device, functions.create_ray_tracing_pipelines, "vkCreateRayTracingPipelinesKHR");
+			load(device, functions.ray_tracing_group_handles, "vkGetRayTracingShaderGroupHandlesKHR");
+			load(device, functions.trace_rays, "vkCmdTraceRaysKHR");
+		}
 		if (device.pipeline_statistics)
 		{
 			load(device, device.functions.executable_properties, "vkGetPipelineExecutablePropertiesKHR");

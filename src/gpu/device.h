@@ -35,7 +35,12 @@ struct DeviceLimits
 	uint32_t loop_workgroups = 0;                // workgroups of a dispatch whose threads loop over a list
 	uint64_t most_footprint_bytes = 256u << 20;  // of height maps kept as footprints (frame/height_footprints.h); more: as texels
 	uint32_t compute_workgroup_threads = 0;      // of every pass that takes it as a constant; 0: each pass's own
-	double timestamp_ns = 0;                     // per tick; 0: no timestamps
+	// Of acceleration structures and ray tracing pipelines; 0 where the device has none.
+	uint32_t scratch_alignment = 0;  // of a build's scratch memory
+	uint64_t most_structure_triangles = 0, most_structure_instances = 0;
+	uint32_t shader_group_handle_bytes = 0;
+	uint32_t shader_group_alignment = 0;  // of every region of a shader binding table
+	double timestamp_ns = 0;              // per tick; 0: no timestamps
 };
 
 class Device

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace tessera
 {
@@ -29,6 +30,12 @@ Status DeviceFeatures::query(VkPhysicalDevice physical, const std::string& devic
 	vulkan11_.pNext = &vulkan12_;
 	vulkan12_.pNext = &vulkan13_;
 	vulkan13_.pNext = has(VK_EXT_MESH_SHADER_EXTENSION_NAME) ? &mesh_ : nullptr;
+	if (has(VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME) && has(VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME))
+	{
+		structures_.pNext = std::exchange(vulkan13_.pNext, &structures_);
+		if (has(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME))
+			rays_.pNext = std::exchange(vulkan13_.pNext, &rays_);
+	}
 	vkGetPhysicalDeviceFeatures2(physical, &core_);
 	VkPhysicalDeviceFloatControlsProperties floats = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES };
 	VkPhysicalDeviceProperties2 properties2 = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &floats };
@@ -64,8 +71,8 @@ void DeviceFeatures::openGates()
 	gates_.fragment_primitive_id = core_.features.geometryShader && core_.features.fullDrawIndexUint32;
 	gates_.buffer_atomics_64 = vulkan12_.shaderBufferInt64Atomics;
 	gates_.image_atomics_64 = has("VK_EXT_shader_image_atomic_int64");
-	gates_.acceleration_structure = has(VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME);
-	gates_.ray_tracing_pipeline = has(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
+	gates_.acceleration_structure = structures_.accelerationStructure;
+	gates_.ray_tracing_pipeline = rays_.rayTracingPipeline;
 	gates_.ray_query = has(VK_KHR_RAY_QUERY_EXTENSION_NAME);
 	gates_.cluster_acceleration_structure = has("VK_NV_cluster_acceleration_structure");
 	gates_.fragment_barycentric = has("VK_KHR_fragment_shader_barycentric");
@@ -96,6 +103,8 @@ const void* DeviceFeatures::enabledChain(bool pipeline_statistics)
 		enabled13_.pNext = &enabled_mesh_;
 		extensions_.push_back(VK_EXT_MESH_SHADER_EXTENSION_NAME);
 	}
+	if (gates_.rays())
+		enableRays();
 	if (pipeline_statistics && gates_.pipeline_statistics)
 	{
 		enabled_statistics_.pipelineExecutableInfo = VK_TRUE;
@@ -106,6 +115,17 @@ const void* DeviceFeatures::enabledChain(bool pipeline_statistics)
 	return &enabled_core_;
 }
 
+void DeviceFeatures::enableRays()
+{
+	enabled_structures_.accelerationStructure = VK_TRUE;
+	enabled_structures_.pNext = std::exchange(enabled13_.pNext, &enabled_structures_);
+	enabled_rays_.rayTracingPipeline = VK_TRUE;
+	enabled_rays_.pNext = std::exchange(enabled13_.pNext, &enabled_rays_);
+	for (const char* extension : { VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
+								   VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME })
+		extensions_.push_back(extension);
+}
+
 static std::string versionText(uint32_t version)
 {
 	return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version), VK_API_VERSION_PATCH(version));
@@ -113,7 +133,11 @@ static std::string versionText(uint32_t version)
 
 void describeDevice(Device& device)
 {
-	VkPhysicalDeviceMeshShaderPropertiesEXT mesh = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_PROPERTIES_EXT };
+	VkPhysicalDeviceRayTracingPipelinePropertiesKHR rays = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR };
+	VkPhysicalDeviceAccelerationStructurePropertiesKHR structures = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR,
+																	  &rays };
+	VkPhysicalDeviceMeshShaderPropertiesEXT mesh = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_PROPERTIES_EXT,
+													 &structures };
 	VkPhysicalDeviceVulkan11Properties vulkan11 = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES, &mesh };
 	VkPhysicalDeviceVulkan13Properties vulkan13 = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES, &vulkan11 };
 	VkPhysicalDeviceDriverProperties driver = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, &vulkan13 };
@@ -131,6 +155,11 @@ void describeDevice(Device& device)
 	limits.max_buffer_bytes = vulkan13.maxBufferSize;
 	limits.max_image_extent = std::min(properties.limits.maxImageDimension2D, properties.limits.maxFramebufferWidth);
 	limits.timestamp_ns = properties.limits.timestampComputeAndGraphics ? double(properties.limits.timestampPeriod) : 0;
+	limits.scratch_alignment = std::max(256u, structures.minAccelerationStructureScratchOffsetAlignment);
+	limits.most_structure_triangles = structures.maxPrimitiveCount;
+	limits.most_structure_instances = structures.maxInstanceCount;
+	limits.shader_group_handle_bytes = rays.shaderGroupHandleSize;
+	limits.shader_group_alignment = std::max(rays.shaderGroupBaseAlignment, rays.shaderGroupHandleAlignment);
 	// Enough workgroups to fill any GPU; a processor needs only some per core.
 	limits.loop_workgroups = device.is_cpu ? 64 : 4096;
 	if (mesh.maxMeshWorkGroupInvocations > 0)

@@ -25,6 +25,7 @@ public:
 private:
 	bool has(const char* extension) const;
 	void openGates();
+	void enableRays();
 
 	std::vector<VkExtensionProperties> available_;
 	std::vector<const char*> extensions_;
@@ -34,6 +35,8 @@ private:
 	VkPhysicalDeviceVulkan12Features vulkan12_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES };
 	VkPhysicalDeviceVulkan13Features vulkan13_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES };
 	VkPhysicalDeviceMeshShaderFeaturesEXT mesh_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT };
+	VkPhysicalDeviceAccelerationStructureFeaturesKHR structures_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR };
+	VkPhysicalDeviceRayTracingPipelineFeaturesKHR rays_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR };
 	VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR enabled_statistics_ = {
 		VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR
 	};
@@ -41,6 +44,8 @@ private:
 	VkPhysicalDeviceVulkan12Features enabled12_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES };
 	VkPhysicalDeviceVulkan13Features enabled13_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES };
 	VkPhysicalDeviceMeshShaderFeaturesEXT enabled_mesh_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT };
+	VkPhysicalDeviceAccelerationStructureFeaturesKHR enabled_structures_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR };
+	VkPhysicalDeviceRayTracingPipelineFeaturesKHR enabled_rays_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR };
 };
 
 // Fills in name, driver, API version and limits of a chosen physical device.

@@ -30,6 +30,9 @@ struct DeviceGates
 	bool pipeline_statistics = false;  // registers and shared memory of a pipeline, as the driver compiled it
 	bool debug_names = false;
 
+	// Rays can be traced: through acceleration structures, by ray tracing pipelines.
+	bool rays() const { return acceleration_structure && ray_tracing_pipeline; }
+
 	std::vector<Gate> table() const;
 };
 

@@ -2,56 +2,13 @@
 
 #include "base/file.h"
 #include "gpu/pipeline_statistics.h"
+#include "gpu/shader_stages.h"
 
 #include <cstring>
 #include <utility>
 
 namespace tessera
 {
-
-namespace
-{
-
-// Specialisation data as Vulkan wants it; keeps what it points to alive.
-class Specialization
-{
-public:
-	explicit Specialization(const Constants& constants)
-	{
-		for (const auto& [id, value] : constants)
-		{
-			entries_.push_back({ id, static_cast<uint32_t>(values_.size() * sizeof(uint32_t)), sizeof(uint32_t) });
-			values_.push_back(value);
-		}
-		info_ = { static_cast<uint32_t>(entries_.size()), entries_.data(), values_.size() * sizeof(uint32_t), values_.data() };
-	}
-	const VkSpecializationInfo* info() const { return &info_; }
-
-private:
-	std::vector<VkSpecializationMapEntry> entries_;
-	std::vector<uint32_t> values_;
-	VkSpecializationInfo info_ = {};
-};
-
-Result<VkShaderModule> makeModule(Device& device, const Shader& shader)
-{
-	VkShaderModuleCreateInfo info = { VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO };
-	info.codeSize = shader.words.size() * sizeof(uint32_t);
-	info.pCode = shader.words.data();
-	VkShaderModule shader_module = VK_NULL_HANDLE;
-	VK_TRY(vkCreateShaderModule(device.handle, &info, nullptr, &shader_module), "loading shader {} ({} bytes of SPIR-V)", shader.name, info.codeSize);
-	return shader_module;
-}
-
-VkPipelineShaderStageCreateInfo stageInfo(const Shader& shader, VkShaderModule shader_module, const Specialization& specialization)
-{
-	VkPipelineShaderStageCreateInfo info = { VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO };
-	info.stage = shader.stage;
-	info.module = shader_module;
-	info.pName = "main";
-	info.pSpecializationInfo = specialization.info();
-	return info;
-}
 
 VkShaderStageFlagBits stageOfName(std::string_view name)
 {
@@ -61,15 +18,21 @@ VkShaderStageFlagBits stageOfName(std::string_view name)
 		return VK_SHADER_STAGE_VERTEX_BIT;
 	if (name.ends_with(".frag"))
 		return VK_SHADER_STAGE_FRAGMENT_BIT;
+	if (name.ends_with(".rgen"))
+		return VK_SHADER_STAGE_RAYGEN_BIT_KHR;
+	if (name.ends_with(".rmiss"))
+		return VK_SHADER_STAGE_MISS_BIT_KHR;
+	if (name.ends_with(".rchit"))
+		return VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR;
+	if (name.ends_with(".rahit"))
+		return VK_SHADER_STAGE_ANY_HIT_BIT_KHR;
 	return VK_SHADER_STAGE_COMPUTE_BIT;
 }
-
-}  // namespace
 
 Result<std::unique_ptr<BindlessSet>> BindlessSet::create(Device& device)
 {
 	std::unique_ptr<BindlessSet> set(new BindlessSet(device));
-	const VkDescriptorSetLayoutBinding bindings[] = {
+	std::vector<VkDescriptorSetLayoutBinding> bindings = {
 		{ 0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kMaxTextures, VK_SHADER_STAGE_ALL, nullptr },
 		{ 1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_ALL, nullptr },
 		{ 2, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_ALL, nullptr },
@@ -78,14 +41,21 @@ Result<std::unique_ptr<BindlessSet>> BindlessSet::create(Device& device)
 		{ 5, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_ALL, nullptr },
 		{ 6, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_ALL, nullptr },
 	};
-	const VkDescriptorBindingFlags partial = VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT;
-	const VkDescriptorBindingFlags flags[] = { partial, partial, partial, partial, partial, partial, partial };
+	std::vector<VkDescriptorPoolSize> sizes = { { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kMaxTextures },
+												{ VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 2 },
+												{ VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 4 } };
+	if (device.gates.rays())
+	{
+		bindings.push_back({ 7, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1, VK_SHADER_STAGE_ALL, nullptr });
+		sizes.push_back({ VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1 });
+	}
+	const std::vector<VkDescriptorBindingFlags> flags(bindings.size(), VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT);
 	VkDescriptorSetLayoutBindingFlagsCreateInfo flags_info = { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO };
-	flags_info.bindingCount = static_cast<uint32_t>(std::size(flags));
-	flags_info.pBindingFlags = flags;
+	flags_info.bindingCount = static_cast<uint32_t>(flags.size());
+	flags_info.pBindingFlags = flags.data();
 	VkDescriptorSetLayoutCreateInfo layout_info = { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, &flags_info };
-	layout_info.bindingCount = static_cast<uint32_t>(std::size(bindings));
-	layout_info.pBindings = bindings;
+	layout_info.bindingCount = static_cast<uint32_t>(bindings.size());
+	layout_info.pBindings = bindings.data();
 	VK_TRY(vkCreateDescriptorSetLayout(device.handle, &layout_info, nullptr, &set->set_layout_), "creating the descriptor set layout");
 
 	const VkPushConstantRange range = { VK_SHADER_STAGE_ALL, 0, kPushConstantBytes };
@@ -96,13 +66,10 @@ Result<std::unique_ptr<BindlessSet>> BindlessSet::create(Device& device)
 	pipeline_info.pPushConstantRanges = &range;
 	VK_TRY(vkCreatePipelineLayout(device.handle, &pipeline_info, nullptr, &set->pipeline_layout_), "creating the pipeline layout");
 
-	const VkDescriptorPoolSize sizes[] = { { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kMaxTextures },
-										   { VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 2 },
-										   { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 4 } };
 	VkDescriptorPoolCreateInfo pool_info = { VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO };
 	pool_info.maxSets = 1;
-	pool_info.poolSizeCount = 3;
-	pool_info.pPoolSizes = sizes;
+	pool_info.poolSizeCount = static_cast<uint32_t>(sizes.size());
+	pool_info.pPoolSizes = sizes.data();
 	VK_TRY(vkCreateDescriptorPool(device.handle, &pool_info, nullptr, &set->pool_), "creating the descriptor pool");
 	VkDescriptorSetAllocateInfo allocate = { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO };
 	allocate.descriptorPool = set->pool_;
@@ -155,6 +122,19 @@ void BindlessSet::writeUniform(uint32_t binding, VkBuffer buffer)
 	vkUpdateDescriptorSets(device_.handle, 1, &write, 0, nullptr);
 }
 
+void BindlessSet::writeStructure(VkAccelerationStructureKHR structure)
+{
+	VkWriteDescriptorSetAccelerationStructureKHR structures = { VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR };
+	structures.accelerationStructureCount = 1;
+	structures.pAccelerationStructures = &structure;
+	VkWriteDescriptorSet write = { VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, &structures };
+	write.dstSet = set_;
+	write.dstBinding = 7;
+	write.descriptorCount = 1;
+	write.descriptorType = VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR;
+	vkUpdateDescriptorSets(device_.handle, 1, &write, 0, nullptr);
+}
+
 Pipeline::~Pipeline()
 {
 	if (handle_)
@@ -166,6 +146,7 @@ void Pipeline::swap(Pipeline& other) noexcept
 	std::swap(device_, other.device_);
 	std::swap(handle_, other.handle_);
 	std::swap(bind_point_, other.bind_point_);
+	std::swap(ray_table_, other.ray_table_);
 }
 
 std::filesystem::path shaderFolder()

@@ -1,6 +1,6 @@
 // Pipelines: one layout for all (push constants and one bindless set), specialised by feature constants.
 #pragma once
-#include "gpu/device.h"
+#include "gpu/resources.h"
 
 #include <filesystem>
 #include <map>
@@ -15,7 +15,8 @@ constexpr uint32_t kMaxTextures = 1024;
 // Specialisation constants by id; a shader uses those it declares.
 using Constants = std::map<uint32_t, uint32_t>;
 
-// The bindless set: binding 0 colour textures, 1 visibility payload, 2 visibility depth, 3 View, 4 Surface, 5 height maps, 6 FrameHistory.
+// The bindless set: binding 0 colour textures, 1 visibility payload, 2 visibility depth, 3 View, 4 Surface, 5 height maps, 6 FrameHistory,
+// 7 what rays are traced through (only where the device can trace any).
 class BindlessSet
 {
 public:
@@ -27,6 +28,7 @@ public:
 	void writeTexture(uint32_t index, VkImageView view, VkSampler sampler);
 	void writeImage(uint32_t binding, VkImageView view);
 	void writeUniform(uint32_t binding, VkBuffer buffer);
+	void writeStructure(VkAccelerationStructureKHR structure);
 	VkPipelineLayout layout() const { return pipeline_layout_; }
 	VkDescriptorSet set() const { return set_; }
 
@@ -37,6 +39,13 @@ private:
 	VkPipelineLayout pipeline_layout_ = VK_NULL_HANDLE;
 	VkDescriptorPool pool_ = VK_NULL_HANDLE;
 	VkDescriptorSet set_ = VK_NULL_HANDLE;
+};
+
+// Where a ray tracing pipeline's shaders are found: its shader binding table.
+struct RayTable
+{
+	Buffer buffer;
+	VkStridedDeviceAddressRegionKHR raygen = {}, miss = {}, hit = {};
 };
 
 class Pipeline
@@ -53,21 +62,27 @@ public:
 	~Pipeline();
 	VkPipeline handle() const { return handle_; }
 	VkPipelineBindPoint bindPoint() const { return bind_point_; }
+	const RayTable& rayTable() const { return ray_table_; }
+	void setRayTable(RayTable&& table) { ray_table_ = std::move(table); }
 
 private:
 	void swap(Pipeline& other) noexcept;
 	Device* device_ = nullptr;
 	VkPipeline handle_ = VK_NULL_HANDLE;
 	VkPipelineBindPoint bind_point_ = VK_PIPELINE_BIND_POINT_COMPUTE;
+	RayTable ray_table_;
 };
 
-// A SPIR-V module and the stage that its file name tells (.comp, .mesh, .vert, .frag).
+// A SPIR-V module and the stage that its file name tells (.comp, .mesh, .vert, .frag, .rgen, .rmiss, .rchit, .rahit).
 struct Shader
 {
 	std::string name;
 	VkShaderStageFlagBits stage = VK_SHADER_STAGE_COMPUTE_BIT;
 	std::vector<uint32_t> words;
 };
+
+// The stage that a shader's file name tells.
+VkShaderStageFlagBits stageOfName(std::string_view name);
 
 // The folder of the SPIR-V files: beside the program in a build, ../share/tessera/shaders in an installation.
 std::filesystem::path shaderFolder();
@@ -85,5 +100,11 @@ struct DrawState
 // A vertex or mesh shader and a fragment shader, drawing with reverse depth; viewport and scissor are dynamic.
 Result<Pipeline> makeDrawPipeline(Device& device, VkPipelineLayout layout, std::span<const Shader> shaders, const Constants& constants,
 								  const DrawState& state);
+
+class CommandRecorder;
+// A ray tracing pipeline of one ray generation and one miss shader and up to one closest-hit and one any-hit shader of triangles, told apart by
+// their stages, the ray generation shader first. Its table is uploaded by `commands`, which must be free. Rays are not traced from hits.
+Result<Pipeline> makeRayPipeline(Device& device, CommandRecorder& commands, VkPipelineLayout layout, std::span<const Shader> shaders,
+								 const Constants& constants);
 
 }  // namespace tessera

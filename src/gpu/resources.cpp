@@ -6,7 +6,7 @@
 namespace tessera
 {
 
-Result<Buffer> Buffer::create(Device& device, uint64_t bytes, MemoryKind kind, const std::string& name)
+Result<Buffer> Buffer::create(Device& device, uint64_t bytes, MemoryKind kind, const std::string& name, VkBufferUsageFlags more_usage)
 {
 	VkBufferCreateInfo info = { VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO };
 	info.size = std::max<uint64_t>(16, (bytes + 15) / 16 * 16);
@@ -15,7 +15,9 @@ Result<Buffer> Buffer::create(Device& device, uint64_t bytes, MemoryKind kind, c
 						name, info.size, device.name, device.limits.max_buffer_bytes);
 	info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
 				 VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
-				 VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
+				 VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | more_usage;
+	if (device.gates.rays())
+		info.usage |= VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
 	Buffer buffer;
 	TRY_ASSIGN(buffer.allocation_, allocateBuffer(device.allocator, info, kind, name));
 	buffer.device_ = &device;

@@ -8,12 +8,13 @@
 namespace tessera
 {
 
-// A buffer with a device address. Every buffer can be storage, indirect arguments, indices and a copy's source or target.
+// A buffer with a device address. Every buffer can be storage, indirect arguments, indices and a copy's source or target; where rays can be
+// traced, also what acceleration structures are built from.
 class Buffer
 {
 public:
-	// bytes 1.. (0 is made 16); address aligned to 256.
-	static Result<Buffer> create(Device& device, uint64_t bytes, MemoryKind kind, const std::string& name);
+	// bytes 1.. (0 is made 16); address aligned to 256. `more_usage`: beyond what every buffer can be used for.
+	static Result<Buffer> create(Device& device, uint64_t bytes, MemoryKind kind, const std::string& name, VkBufferUsageFlags more_usage = 0);
 	Buffer() = default;
 	Buffer(Buffer&& other) noexcept { swap(other); }
 	Buffer& operator=(Buffer&& other) noexcept

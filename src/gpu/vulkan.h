@@ -18,6 +18,14 @@ Error vulkanError(VkResult result, const std::string& what);
 struct ExtensionFunctions
 {
 	PFN_vkCmdDrawMeshTasksIndirectEXT draw_mesh_tasks_indirect = nullptr;
+	PFN_vkCreateAccelerationStructureKHR create_acceleration_structure = nullptr;
+	PFN_vkDestroyAccelerationStructureKHR destroy_acceleration_structure = nullptr;
+	PFN_vkGetAccelerationStructureBuildSizesKHR acceleration_structure_sizes = nullptr;
+	PFN_vkGetAccelerationStructureDeviceAddressKHR acceleration_structure_address = nullptr;
+	PFN_vkCmdBuildAccelerationStructuresKHR build_acceleration_structures = nullptr;
+	PFN_vkCreateRayTracingPipelinesKHR create_ray_tracing_pipelines = nullptr;
+	PFN_vkGetRayTracingShaderGroupHandlesKHR ray_tracing_group_handles = nullptr;
+	PFN_vkCmdTraceRaysKHR trace_rays = nullptr;
 	PFN_vkGetPipelineExecutablePropertiesKHR executable_properties = nullptr;
 	PFN_vkGetPipelineExecutableStatisticsKHR executable_statistics = nullptr;
 	PFN_vkSetDebugUtilsObjectNameEXT set_object_name = nullptr;

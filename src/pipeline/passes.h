@@ -1,4 +1,4 @@
-// Every pass of a frame, in execution order. One host file per pass, its stem that of its shader.
+// Every pass of a frame, in execution order. One host file per pass, its stem that of its shader, where it has one.
 #pragma once
 #include "plan/pass.h"
 
@@ -17,6 +17,10 @@ extern const PassDesc kBatchParts;
 extern const PassDesc kRateFit;
 extern const PassDesc kEvaluateVertices;
 extern const PassDesc kRasterMicro;
+extern const PassDesc kBuildGeometry;
+extern const PassDesc kPlaceInstances;
+extern const PassDesc kBuildScene;
+extern const PassDesc kTraceVisibility;
 extern const PassDesc kDepthPyramid;
 extern const PassDesc kRetestParts;
 extern const PassDesc kRasterRevealed;
@@ -25,6 +29,8 @@ extern const PassDesc kDrawBatches;
 extern const PassDesc kDrawIndexed;
 extern const PassDesc kDumpMicro;
 extern const PassDesc kKeepVisibility;
+extern const PassDesc kTraceShadows;
+extern const PassDesc kTraceAmbient;
 extern const PassDesc kShade;
 
 std::span<const PassDesc* const> framePasses();

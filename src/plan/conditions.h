@@ -48,6 +48,46 @@ inline bool usesIndexed(const PlanInput& input)
 	return chosenRaster(input) == Raster::Indexed;
 }
 
+inline bool usesRt(const PlanInput& input)
+{
+	return chosenRaster(input) == Raster::Rt;
+}
+
+// The other views show no light.
+inline bool showsLight(const PlanInput& input)
+{
+	return input.options.view == ViewMode::Shaded || input.options.view == ViewMode::Facets;
+}
+inline bool tracesShadows(const PlanInput& input)
+{
+	return input.options.shadows && showsLight(input);
+}
+inline bool tracesAmbient(const PlanInput& input)
+{
+	return input.options.ao_samples > 0 && showsLight(input);
+}
+// Rays that start at visible surfaces: what they may meet need not be in view.
+inline bool tracesLight(const PlanInput& input)
+{
+	return tracesShadows(input) || tracesAmbient(input);
+}
+inline bool tracesRays(const PlanInput& input)
+{
+	return usesRt(input) || tracesLight(input);
+}
+
+// Culling that is possible beside the rays of this frame. A caster out of view must be there, whatever side it shows to the eye; what rays are
+// traced through is built once, before anything is seen.
+inline CullOptions culling(const PlanInput& input)
+{
+	CullOptions cull = input.options.cull;
+	if (tracesLight(input))
+		cull = { false, false, false };
+	if (tracesRays(input))
+		cull.occlusion = false;
+	return cull;
+}
+
 inline constexpr Condition kDisplaced = {
 	[](const PlanInput& input) { return input.scene.has_displacement && input.options.displacement_scale != 0; }, "no material displaces"
 };
@@ -64,12 +104,12 @@ inline constexpr Condition kTessellates = { [](const PlanInput& input) { return 
 inline constexpr Condition kDoesNotTessellate = { [](const PlanInput& input) { return !kTessellates.holds(input); }, "cluster_classify writes it" };
 inline constexpr Condition kSplits = { [](const PlanInput& input) { return kTessellates.holds(input) && input.view.split_levels > 0; },
 									   "no edge can exceed the table at this rate and camera" };
-inline constexpr Condition kCulls = { [](const PlanInput& input) { return input.options.cull.any(); }, "culling is off" };
-inline constexpr Condition kFrustumCulls = { [](const PlanInput& input) { return input.options.cull.frustum; }, "frustum culling is off" };
+inline constexpr Condition kCulls = { [](const PlanInput& input) { return culling(input).any(); }, "culling is off, or rays may meet what it would remove" };
+inline constexpr Condition kFrustumCulls = { [](const PlanInput& input) { return culling(input).frustum; }, "frustum culling is off, or rays may meet what it would remove" };
 inline constexpr Condition kSoft = { [](const PlanInput& input) { return usesSoft(input) && input.device.buffer_atomics_64; },
 									 "another producer of visibility is chosen, or the device lacks 64-bit buffer atomics" };
-inline constexpr Condition kMayHide = { [](const PlanInput& input) { return input.options.cull.occlusion && kSoft.holds(input); },
-										"occlusion culling is off, or attachments hold depth" };
+inline constexpr Condition kMayHide = { [](const PlanInput& input) { return culling(input).occlusion && kSoft.holds(input); },
+										"occlusion culling is off, attachments hold depth, or rays are traced" };
 inline constexpr Condition kLooksForHidden = { [](const PlanInput& input) { return kMayHide.holds(input) && input.view.looks_for_hidden; },
 											   "occlusion culling is off, attachments hold depth, or the last frames hid too little for its cost" };
 inline constexpr Condition kPartsMayHide = { [](const PlanInput& input) { return kMayHide.holds(input) && kTessellates.holds(input); },
@@ -79,8 +119,29 @@ inline constexpr Condition kDisplacedPartsMayHide = { [](const PlanInput& input)
 inline constexpr Condition kMesh = { [](const PlanInput& input) { return usesMesh(input) && input.device.mesh_shader; },
 									 "another producer of visibility is chosen, or the device lacks VK_EXT_mesh_shader" };
 inline constexpr Condition kIndexed = { usesIndexed, "another producer of visibility is chosen" };
-inline constexpr Condition kDraws = { [](const PlanInput& input) { return !usesSoft(input); },
-									  "raster_micro evaluates its own vertices and writes a buffer" };
+inline constexpr Condition kDraws = { [](const PlanInput& input) { return usesMesh(input) || usesIndexed(input); },
+									  "compute or rays find visibility and write a buffer" };
+inline constexpr Condition kBuffered = { [](const PlanInput& input) { return !kDraws.holds(input); }, "attachments hold depth and payloads" };
+// Rays.
+inline constexpr Condition kRays = { [](const PlanInput& input) { return tracesRays(input) && input.device.rays; },
+									 "no rays are traced, or the device lacks acceleration structures or ray tracing pipelines" };
+inline constexpr Condition kRt = { [](const PlanInput& input) { return usesRt(input) && input.device.rays; },
+								   "another producer of visibility is chosen, or the device lacks acceleration structures or ray tracing pipelines" };
+inline constexpr Condition kShadows = { [](const PlanInput& input) { return tracesShadows(input) && input.device.rays; },
+										"--shadows is off, the view shows no light, or the device cannot trace rays" };
+inline constexpr Condition kAmbientOcclusion = { [](const PlanInput& input) { return tracesAmbient(input) && input.device.rays; },
+												 "--ao is 0, the view shows no light, or the device cannot trace rays" };
+inline constexpr Condition kRtMixedSides = {
+	[](const PlanInput& input) { return kRt.holds(input) && input.scene.has_single_sided && input.scene.has_double_sided; },
+	"all materials show the same sides"
+};
+inline constexpr Condition kRtMixedSidesOfParts = { [](const PlanInput& input) { return kRtMixedSides.holds(input) && kTessellates.holds(input); },
+													"all materials show the same sides, or nothing is tessellated" };
+// Micro-vertices and indices in memory: for those who do not evaluate their own.
+inline constexpr Condition kKeepsVertices = { [](const PlanInput& input) { return kDraws.holds(input) || kRays.holds(input); },
+											  "raster_micro evaluates its own vertices, and nothing else needs any" };
+inline constexpr Condition kExpands = { [](const PlanInput& input) { return usesIndexed(input) || kRays.holds(input); },
+										"nothing is drawn by indices, and no rays are traced" };
 inline constexpr Condition kPrimitiveId = { [](const PlanInput& input) { return input.device.fragment_primitive_id; },
 											"the device lacks primitive ids in fragment shaders (geometryShader) or 32-bit indices" };
 inline constexpr Condition kColorTextures = { [](const PlanInput& input) { return input.scene.has_color_textures; },

@@ -20,8 +20,12 @@ enum class Access : uint8_t
 	VertexRead,    // vertex shader
 	IndexRead,
 	FragmentRead,
-	Color,  // colour attachment
-	Depth,  // depth attachment
+	Color,       // colour attachment
+	Depth,       // depth attachment
+	BuildRead,   // what an acceleration structure is built from: vertices, indices, instances, other structures
+	BuildWrite,  // the structure itself, and its scratch memory
+	RayRead,     // shaders of a ray tracing pipeline; what rays are traced through
+	RayWrite,
 	CopyRead,
 	CopyWrite,
 };
@@ -34,6 +38,7 @@ struct SceneSizes
 	uint64_t most_groups_per_mesh = 0;  // groups of CLUSTER_GROUP_SIZE clusters
 	uint64_t instanced_clusters = 0;    // clusters over all instances
 	uint64_t height_texel_bytes = 0, height_footprint_bytes = 0, color_texture_bytes = 0, seam_edges = 0, seam_corners = 0, height_maps = 0;
+	double world_radius = 0;  // of the displaced bounds
 };
 
 // What the planner needs of the device: the gates that decide passes.
@@ -44,6 +49,9 @@ struct DeviceTraits
 	bool fragment_primitive_id = false;
 	bool is_cpu = false;
 	uint64_t most_footprint_bytes = 0;  // memory that height maps may take to be read faster
+	bool rays = false;                  // acceleration structures and ray tracing pipelines
+	// What the driver asks for, about: for structures per triangle and per instance, and for scratch memory per triangle.
+	double structure_triangle_bytes = 0, structure_instance_bytes = 0, structure_scratch_bytes = 0;
 };
 
 // What the host knows of the view before it is drawn.
@@ -83,8 +91,10 @@ struct PassDesc
 {
 	std::string_view name;  // timer label, report key, file stem
 	std::span<const Use> uses;
-	std::span<const Condition* const> needed;     // all must hold, else the pass is dropped with the reason
-	std::span<const std::string_view> shaders;    // SPIR-V files below shaders/; one compute shader, or the stages of a draw
+	std::span<const Condition* const> needed;  // all must hold, else the pass is dropped with the reason
+	// SPIR-V files below shaders/: one compute shader, the stages of a draw, or those of a ray tracing pipeline, ray generation first; none where
+	// the pass records commands alone.
+	std::span<const std::string_view> shaders;
 	uint32_t (*repeats)(const PlanInput& input);  // nullptr: once
 	void (*record)(PassContext& pass);
 };
@@ -102,7 +112,7 @@ struct Feature
 struct ResourceDesc
 {
 	std::string_view name;
-	std::string_view kind;  // attribute, buffer, list, texture, image
+	std::string_view kind;  // attribute, buffer, list, texture, image, structure
 	uint64_t (*bytes)(const PlanInput& input);
 };
 

@@ -9,7 +9,7 @@ namespace tessera
 
 bool writes(Access access)
 {
-	return access == Access::ComputeWrite || access == Access::Color || access == Access::Depth || access == Access::CopyWrite;
+	return access == Access::ComputeWrite || access == Access::BuildWrite || access == Access::RayWrite || access == Access::Color || access == Access::Depth || access == Access::CopyWrite;
 }
 
 namespace
@@ -156,11 +156,16 @@ bool isWritten(const FramePlan& plan, std::string_view resource, const PlanInput
 	return std::any_of(plan.steps.begin(), plan.steps.end(), [&](const PlanStep& step) { return writesOneOf(*step.pass, { resource }, input); });
 }
 
-// A list or an image holds nothing until a pass writes it; scene arrays and tables come from the host.
+// A list, an image or an acceleration structure holds nothing until a pass writes it; scene arrays and tables come from the host.
+bool isMade(std::string_view kind)
+{
+	return kind == "list" || kind == "image" || kind == "structure";
+}
+
 bool isMadeByPasses(std::string_view resource, std::span<const ResourceDesc> resources)
 {
 	return std::any_of(resources.begin(), resources.end(),
-					   [&](const ResourceDesc& desc) { return desc.name == resource && (desc.kind == "list" || desc.kind == "image"); });
+					   [&](const ResourceDesc& desc) { return desc.name == resource && isMade(desc.kind); });
 }
 
 // Errors: DeviceCannot when a step reads what no step before it makes, with the reasons of the passes that could.
@@ -227,7 +232,7 @@ bool FramePlan::everyReadHasAnEarlierWriteAndABarrier(const PlanInput& input) co
 			}
 			// What the host fills is there before the first step.
 			const bool by_passes = std::any_of(resources.begin(), resources.end(), [&](const PlannedResource& made) {
-				return made.name == read.resource && (made.kind == "list" || made.kind == "image");
+				return made.name == read.resource && isMade(made.kind);
 			});
 			if (found ? !ordered : by_passes)
 				return false;

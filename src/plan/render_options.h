@@ -15,8 +15,9 @@ enum class Raster : uint8_t
 	Soft,     // compute
 	Mesh,     // mesh shaders
 	Indexed,  // vertices and indices expanded by compute
+	Rt,       // rays through pixels' centres
 };
-inline constexpr std::string_view kRasterNames[] = { "auto", "soft", "mesh", "indexed" };
+inline constexpr std::string_view kRasterNames[] = { "auto", "soft", "mesh", "indexed", "rt" };
 inline constexpr std::string_view rasterName(Raster raster)
 {
 	return kRasterNames[static_cast<uint8_t>(raster)];
@@ -61,6 +62,9 @@ struct RenderOptions
 	bool wireframe = false;  // sides of micro-triangles and base triangles over the view
 	float displacement_scale = 1;
 	bool smooth_normals = true;  // false: faceted shading
+	bool shadows = false;        // of the sun, by rays
+	uint32_t ao_samples = 0;     // rays per pixel for ambient occlusion; 0: none
+	float ao_radius_world = 0;   // what is farther does not occlude; 0: a tenth of the scene's radius
 	uint32_t width_px = 1920;
 	uint32_t height_px = 1080;
 	std::map<std::string, uint32_t> capacities;  // by list name

@@ -331,6 +331,8 @@ std::vector<Raster> rasterPaths(const Device& device)
 		paths.push_back(Raster::Mesh);
 	if (device.gates.fragment_primitive_id)
 		paths.push_back(Raster::Indexed);
+	if (device.gates.rays())
+		paths.push_back(Raster::Rt);
 	return paths;
 }
 

@@ -75,7 +75,7 @@ Status findBatch(Renderer& renderer, uint32_t part, Inspection& found)
 {
 	TRY_ASSIGN(const std::vector<Batch> batches, readItems<Batch>(renderer, "batches"));
 	TRY_ASSIGN(const std::vector<PartPlace> places, readItems<PartPlace>(renderer, "part_places"));
-	const bool soft = usesSoft(renderer.planInput());
+	const bool soft = kBuffered.holds(renderer.planInput());
 	found.most_batch_vertices = soft ? RASTER_BATCH_VERTICES : BATCH_MAX_VERTICES;
 	found.most_batch_triangles = soft ? RASTER_BATCH_TRIANGLES : BATCH_MAX_TRIANGLES;
 	for (size_t b = 0; b < batches.size(); ++b)

@@ -53,22 +53,27 @@ private:
 	fs::path folder_;
 };
 
-EShLanguage stageOf(const std::string& name)
+EShLanguage stageOf(VkShaderStageFlagBits stage)
 {
-	if (name.ends_with(".mesh"))
+	switch (stage)
+	{
+	case VK_SHADER_STAGE_MESH_BIT_EXT:
 		return EShLangMesh;
-	if (name.ends_with(".vert"))
+	case VK_SHADER_STAGE_VERTEX_BIT:
 		return EShLangVertex;
-	return name.ends_with(".frag") ? EShLangFragment : EShLangCompute;
-}
-
-VkShaderStageFlagBits stageBitOf(const std::string& name)
-{
-	if (name.ends_with(".mesh"))
-		return VK_SHADER_STAGE_MESH_BIT_EXT;
-	if (name.ends_with(".vert"))
-		return VK_SHADER_STAGE_VERTEX_BIT;
-	return name.ends_with(".frag") ? VK_SHADER_STAGE_FRAGMENT_BIT : VK_SHADER_STAGE_COMPUTE_BIT;
+	case VK_SHADER_STAGE_FRAGMENT_BIT:
+		return EShLangFragment;
+	case VK_SHADER_STAGE_RAYGEN_BIT_KHR:
+		return EShLangRayGen;
+	case VK_SHADER_STAGE_MISS_BIT_KHR:
+		return EShLangMiss;
+	case VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR:
+		return EShLangClosestHit;
+	case VK_SHADER_STAGE_ANY_HIT_BIT_KHR:
+		return EShLangAnyHit;
+	default:
+		return EShLangCompute;
+	}
 }
 
 void startCompiler()
@@ -97,7 +102,7 @@ Result<Shader> compileShader(const fs::path& folder, const std::string& name)
 {
 	startCompiler();
 	TRY_ASSIGN(const std::string text, readText(folder / name));
-	const EShLanguage stage = stageOf(name);
+	const EShLanguage stage = stageOf(stageOfName(name));
 	const char* sources[] = { text.c_str() };
 	const char* names[] = { name.c_str() };
 	glslang::TShader shader(stage);
@@ -113,7 +118,7 @@ Result<Shader> compileShader(const fs::path& folder, const std::string& name)
 	program.addShader(&shader);
 	if (!program.link(kMessages))
 		return badInput("{}: {}", name, program.getInfoLog());
-	Shader compiled = { name, stageBitOf(name), {} };
+	Shader compiled = { name, stageOfName(name), {} };
 	glslang::GlslangToSpv(*program.getIntermediate(stage), compiled.words);
 	return compiled;
 }

@@ -31,8 +31,8 @@ static void record(PassContext& pass)
 	args.cluster_groups = pass.address("cluster_groups");
 	args.visible_clusters = pass.address("visible_clusters");
 	args.full_clusters = pass.address("full_clusters");
-	args.cull_frustum = pass.input().options.cull.frustum ? 1 : 0;
-	args.cull_backface = pass.input().options.cull.backface ? 1 : 0;
+	args.cull_frustum = culling(pass.input()).frustum ? 1 : 0;
+	args.cull_backface = culling(pass.input()).backface ? 1 : 0;
 	args.emit_full = kDoesNotTessellate.holds(pass.input()) ? 1 : 0;
 	pass.dispatchLoop(args, pass.capacity("cluster_groups"));
 }

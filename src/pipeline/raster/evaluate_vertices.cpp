@@ -13,7 +13,7 @@ static constexpr auto kUses = joinUses(surfaceUses(Access::ComputeRead), partUse
 										   { "full_clusters", Access::ComputeRead },
 										   { "batches", Access::ComputeRead, &kTessellates },
 										   { "micro_vertices", Access::ComputeWrite },
-										   { "expanded_triangles", Access::ComputeWrite, &kIndexed },
+										   { "expanded_triangles", Access::ComputeWrite, &kExpands },
 									   } });
 
 static void record(PassContext& pass)
@@ -26,10 +26,11 @@ static void record(PassContext& pass)
 	args.batches = pass.address("batches");
 	args.vertices = pass.address("micro_vertices");
 	args.indices = pass.address("expanded_triangles");
+	args.traced_triangles = kRays.holds(pass.input()) ? pass.tracedTriangles() : 0;
 	pass.dispatchLoop(args, uint64_t(pass.capacity("batches")) + pass.capacity("full_clusters"));
 }
 
-static constexpr const Condition* kNeeded[] = { &kDraws };
+static constexpr const Condition* kNeeded[] = { &kKeepsVertices };
 static constexpr std::string_view kShaders[] = { "raster/evaluate_vertices.comp" };
 
 const PassDesc kEvaluateVertices = { "evaluate_vertices", kUses, kNeeded, kShaders, nullptr, record };

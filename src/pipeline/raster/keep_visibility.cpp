@@ -10,7 +10,7 @@ static constexpr Use kUses[] = {
 	{ "view", Access::ComputeRead },
 	{ "visibility_depth", Access::ComputeRead, &kDraws },
 	{ "visibility_payload", Access::ComputeRead, &kDraws },
-	{ "visibility_buffer", Access::ComputeRead, &kSoft },
+	{ "visibility_buffer", Access::ComputeRead, &kBuffered },
 	{ "kept_visibility", Access::ComputeWrite },
 };
 

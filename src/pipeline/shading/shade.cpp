@@ -7,7 +7,7 @@ namespace tessera
 {
 
 static constexpr auto kUses = joinUses(surfaceUses(Access::ComputeRead), partUses(Access::ComputeRead),
-									   std::array<Use, 10>{ {
+									   std::array<Use, 12>{ {
 										   { "shading", Access::ComputeRead },
 										   { "materials", Access::ComputeRead },
 										   { "normals", Access::ComputeRead, &kNormals },
@@ -16,7 +16,9 @@ static constexpr auto kUses = joinUses(surfaceUses(Access::ComputeRead), partUse
 										   { "colors", Access::ComputeRead, &kVertexColors },
 										   { "visibility_depth", Access::ComputeRead, &kDraws },
 										   { "visibility_payload", Access::ComputeRead, &kDraws },
-										   { "visibility_buffer", Access::ComputeWrite, &kSoft },
+										   { "visibility_buffer", Access::ComputeWrite, &kBuffered },
+										   { "sun_visibility", Access::ComputeRead, &kShadows },
+										   { "ambient_visibility", Access::ComputeRead, &kAmbientOcclusion },
 										   { "counts", Access::ComputeWrite },
 									   } },
 									   std::array<Use, 1>{ { { "picture", Access::ComputeWrite } } });
@@ -33,6 +35,8 @@ static void record(PassContext& pass)
 	args.view_mode = static_cast<uint32_t>(pass.input().options.view) | (pass.input().options.wireframe ? VIEW_WITH_WIREFRAME : 0);
 	args.visibility = pass.address("visibility_buffer");
 	args.rounds = pass.round() | pass.input().view.rounds << 16;
+	args.sun_visibility = pass.address("sun_visibility");
+	args.ambient_visibility = pass.address("ambient_visibility");
 	pass.dispatch(args, (pass.input().options.width_px + kTilePx - 1) / kTilePx, (pass.input().options.height_px + kTilePx - 1) / kTilePx);
 }
 

@@ -22,9 +22,10 @@ inline BatchPartsArgs batchPartsArgs(const PassContext& pass)
 	args.cluster_bounds = pass.address("cluster_bounds");
 	args.triangle_reaches = pass.address("triangle_reaches");
 	args.visible_clusters = pass.address("visible_clusters");
-	args.most_parts = usesSoft(pass.input()) ? RASTER_BATCH_PARTS : BATCH_MAX_PARTS;
-	args.most_vertices = usesSoft(pass.input()) ? RASTER_BATCH_VERTICES : BATCH_MAX_VERTICES;
-	args.most_triangles = usesSoft(pass.input()) ? RASTER_BATCH_TRIANGLES : BATCH_MAX_TRIANGLES;
+	const bool for_compute = kBuffered.holds(pass.input());
+	args.most_parts = for_compute ? RASTER_BATCH_PARTS : BATCH_MAX_PARTS;
+	args.most_vertices = for_compute ? RASTER_BATCH_VERTICES : BATCH_MAX_VERTICES;
+	args.most_triangles = for_compute ? RASTER_BATCH_TRIANGLES : BATCH_MAX_TRIANGLES;
 	return args;
 }
 

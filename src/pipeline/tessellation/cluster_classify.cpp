@@ -38,8 +38,8 @@ static void record(PassContext& pass)
 	args.split_triangles = pass.address("split_triangles");
 	args.part_triangles = pass.address("part_triangles");
 	args.rule = pass.factorRule();
-	args.cull_frustum = pass.input().options.cull.frustum ? 1 : 0;
-	args.cull_frustum = pass.input().options.cull.frustum ? 1 : 0;
+	args.cull_frustum = culling(pass.input()).frustum ? 1 : 0;
+	args.cull_frustum = culling(pass.input()).frustum ? 1 : 0;
 	pass.dispatchLoop(args, pass.capacity("visible_clusters"));
 }
 

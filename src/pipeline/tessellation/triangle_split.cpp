@@ -46,7 +46,7 @@ static void record(PassContext& pass)
 	args.part_triangles = pass.address("part_triangles");
 	args.table = tableView(pass);
 	args.rule = pass.factorRule();
-	args.cull_frustum = pass.input().options.cull.frustum ? 1 : 0;
+	args.cull_frustum = culling(pass.input()).frustum ? 1 : 0;
 	args.level = pass.repeat();
 	args.last_level = pass.repeat() + 1 == levels(pass.input()) ? 1 : 0;
 	pass.dispatchLoop(args, pass.capacity("split_triangles"), kSplitsPerGroup);

@@ -1,0 +1,124 @@
+#include "frame/ray_structures.h"
+
+#include <algorithm>
+
+namespace tessera
+{
+
+namespace
+{
+
+constexpr uint32_t kStepTriangles = 1024;         // structures hold a multiple of it
+constexpr uint32_t kVertexBytes = 16;
+
+uint32_t roundedUp(uint64_t triangles)
+{
+	return static_cast<uint32_t>(std::max<uint64_t>(1, (triangles + kStepTriangles - 1) / kStepTriangles) * kStepTriangles);
+}
+
+}  // namespace
+
+Status RayStructures::prepare(const RayInputs& inputs, const PlanInput& input, BindlessSet& bindless)
+{
+	inputs_ = inputs;
+	if (reserved_ == 0)
+		reserved_ = roundedUp(std::min<uint64_t>(input.scene.instanced_triangles, kFirstTriangles));
+	reserved_ = std::min(reserved_, inputs.triangle_capacity);
+	TRY(makeGeometry(input));
+	TRY(makeScene(bindless));
+	return makeScratch();
+}
+
+Status RayStructures::makeGeometry(const PlanInput& input)
+{
+	TriangleInput triangles;
+	triangles.vertices = inputs_.micro_vertices;
+	triangles.vertex_stride_bytes = kVertexBytes;
+	triangles.most_vertex = inputs_.vertex_capacity;  // that of triangles that are not there
+	triangles.indices = inputs_.expanded_triangles;
+	triangles.triangle_count = reserved_;
+	triangles.opaque = !(input.scene.has_single_sided && input.scene.has_double_sided);
+	const uint32_t before = geometry_build_ ? geometry_build_->count() : 0;
+	geometry_build_.emplace(triangles, BuildFlags{});
+	if (geometry_ && before == reserved_)
+		return {};
+	geometry_ = {};
+	TRY_ASSIGN(geometry_, AccelerationStructure::create(device_, geometry_build_->type(), geometry_build_->sizes(device_).structure_bytes,
+														"ray_geometry"));
+	return {};
+}
+
+Status RayStructures::makeScene(BindlessSet& bindless)
+{
+	const uint32_t before = scene_build_ ? scene_build_->count() : 0;
+	scene_build_.emplace(InstanceInput{ inputs_.instances, inputs_.instance_count }, BuildFlags{});
+	if (scene_ && before == inputs_.instance_count)
+		return {};
+	scene_ = {};
+	TRY_ASSIGN(scene_,
+			   AccelerationStructure::create(device_, scene_build_->type(), scene_build_->sizes(device_).structure_bytes, "ray_scene"));
+	bindless.writeStructure(scene_.handle());
+	return {};
+}
+
+// One for both builds, which a barrier parts.
+Status RayStructures::makeScratch()
+{
+	const uint64_t bytes =
+		scratchBytes(device_, std::max(geometry_build_->sizes(device_).build_scratch_bytes, scene_build_->sizes(device_).build_scratch_bytes));
+	if (scratch_ && scratch_.bytes() >= bytes && scratch_.bytes() <= 2 * bytes)
+		return {};
+	scratch_ = {};
+	TRY_ASSIGN(scratch_, Buffer::create(device_, bytes, MemoryKind::Device, "ray_scratch"));
+	return {};
+}
+
+void RayStructures::drop()
+{
+	geometry_build_.reset();
+	scene_build_.reset();
+	geometry_ = {};
+	scene_ = {};
+	scratch_ = {};
+}
+
+bool RayStructures::reserveFor(uint32_t wanted)
+{
+	peak_ = std::max(peak_, wanted);
+	const bool fits = wanted <= reserved_;
+	if (fits)
+		peak_used_ = std::max(peak_used_, wanted);
+	// Nearly full: a moving camera seldom draws a frame twice. Half empty: what is not there costs a little, too.
+	if (!fits || uint64_t(wanted) * 16 > uint64_t(reserved_) * 15 || wanted < reserved_ / 2)
+		reserved_ = static_cast<uint32_t>(std::min<uint64_t>(roundedUp(uint64_t(wanted) * 9 / 8), device_.limits.most_structure_triangles));
+	return !fits;
+}
+
+void RayStructures::recordGeometry(VkCommandBuffer commands) const
+{
+	geometry_build_->record(device_, commands, geometry_.handle(), scratchAddress(device_, scratch_), BuildMode::Build);
+}
+
+void RayStructures::recordScene(VkCommandBuffer commands) const
+{
+	scene_build_->record(device_, commands, scene_.handle(), scratchAddress(device_, scratch_), BuildMode::Build);
+}
+
+RayStats RayStructures::stats(uint32_t wanted) const
+{
+	if (!exists())
+		return {};
+	RayStats stats;
+	stats.traced = true;
+	stats.triangles = { "ray_geometry", wanted, geometry_build_->count(), peak_, peak_used_, geometry_.bytes() };
+	const auto bytes_for = [&](uint32_t count) {
+		return geometry_build_->sizes(device_, std::max(count, 1u)).structure_bytes;
+	};
+	stats.geometry_bytes = geometry_.bytes();
+	stats.geometry_used_bytes = bytes_for(std::min(wanted, geometry_build_->count()));
+	stats.scene_bytes = scene_.bytes();
+	stats.scratch_bytes = scratch_.bytes();
+	return stats;
+}
+
+}  // namespace tessera

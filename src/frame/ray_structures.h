@@ -1,0 +1,61 @@
+// What a frame's rays are traced through: one bottom-level structure of the frame's micro-triangles, and the scene over it. Sizes follow the demand:
+// a build on the device takes its count from the host, which knows the last frame's.
+#pragma once
+#include "frame/stats.h"
+#include "gpu/acceleration_structure.h"
+#include "gpu/pipeline.h"
+#include "plan/plan.h"
+
+#include <optional>
+
+namespace tessera
+{
+
+// Triangles that a structure is built of before a frame has shown how many it has, at most.
+constexpr uint32_t kFirstTriangles = 64u * 1024;
+
+// Addresses that a build reads, and what they can hold.
+struct RayInputs
+{
+	uint64_t micro_vertices = 0, expanded_triangles = 0, instances = 0;
+	uint32_t vertex_capacity = 0, triangle_capacity = 0, instance_count = 0;
+};
+
+class RayStructures
+{
+public:
+	explicit RayStructures(Device& device) : device_(device) {}
+
+	// Makes the structures of a frame that is not drawn yet. `inputs` may be elsewhere than before. Writes the scene's descriptor where it is a new one.
+	// Errors: BadInput (out of memory).
+	Status prepare(const RayInputs& inputs, const PlanInput& input, BindlessSet& bindless);
+	// Lets go of everything.
+	void drop();
+
+	// Triangles that the frame's structure is built of; those that the frame does not have get no area.
+	uint32_t reserved() const { return reserved_; }
+	// After a frame that wanted this many. True when they were more than reserved: it must be drawn again, then with room for all.
+	bool reserveFor(uint32_t wanted);
+
+	uint64_t geometryAddress() const { return geometry_.address(); }
+	void recordGeometry(VkCommandBuffer commands) const;
+	void recordScene(VkCommandBuffer commands) const;
+
+	bool exists() const { return bool(scene_); }
+	// `wanted`: triangles of the last frame.
+	RayStats stats(uint32_t wanted) const;
+
+private:
+	Status makeGeometry(const PlanInput& input);
+	Status makeScene(BindlessSet& bindless);
+	Status makeScratch();
+
+	Device& device_;
+	RayInputs inputs_;
+	std::optional<StructureBuild> geometry_build_, scene_build_;
+	AccelerationStructure geometry_, scene_;
+	Buffer scratch_;
+	uint32_t reserved_ = 0, peak_ = 0, peak_used_ = 0;
+};
+
+}  // namespace tessera
