@@ -17,7 +17,7 @@ void main()
 	geometry.row1 = vec4(0.0, 1.0, 0.0, 0.0);
 	geometry.row2 = vec4(0.0, 0.0, 1.0, 0.0);
 	geometry.index_and_mask = 0xffu << 24;
-	geometry.offset_and_flags = RAY_INSTANCE_FRONT_IS_COUNTERCLOCKWISE << 24;
+	geometry.offset_and_flags = 0u;
 	geometry.structure = args.geometry;
 	args.instances.at[0] = geometry;
 }

@@ -12,12 +12,10 @@ struct RayInstance
 	vec4 row1;
 	vec4 row2;
 	uint index_and_mask;    // what hits are told, 24 bits; mask << 24
-	uint offset_and_flags;  // of the shader table, 24 bits; RAY_INSTANCE_* << 24
+	uint offset_and_flags;  // of the shader table, 24 bits; flags << 24: none, a triangle is seen from where it runs counter-clockwise
 	uint64_t structure;     // address; 0: inactive
 };
 SHARED_LAYOUT(RayInstance, 64, structure, 56)
-
-#define RAY_INSTANCE_FRONT_IS_COUNTERCLOCKWISE 2u
 
 struct PlaceInstancesArgs
 {

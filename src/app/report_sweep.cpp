@@ -43,7 +43,7 @@ report::RunCounts countsOf(const FrameCountsRead& counts)
 
 report::RunBytes bytesOf(const MemoryStats& memory)
 {
-	return { memory.lists, memory.geometry, memory.textures, memory.images };
+	return { memory.lists, memory.geometry + memory.rays, memory.textures, memory.images };
 }
 
 std::string oneLine(std::string text)

@@ -76,6 +76,19 @@ ordered_json listsJson(const FrameResult& result)
 	return json;
 }
 
+ordered_json raysJson(const RayStats& rays)
+{
+	return {
+		{ "triangles", rays.triangles.wanted },
+		{ "reserved_triangles", rays.triangles.capacity },
+		{ "geometry_bytes", rays.geometry_bytes },
+		{ "geometry_used_bytes", rays.geometry_used_bytes },
+		{ "scene_bytes", rays.scene_bytes },
+		{ "scratch_bytes", rays.scratch_bytes },
+		{ "build", rays.refitted ? "refit" : "built" },
+	};
+}
+
 ordered_json vectorJson(const dvec3& vector)
 {
 	return ordered_json::array({ vector.x, vector.y, vector.z });
@@ -174,9 +187,11 @@ ordered_json statsJson(const RunFacts& facts)
 	json["frame"] = frameJson(facts);
 	json["passes"] = passesJson(facts);
 	json["lists"] = listsJson(facts.series.last);
+	if (facts.series.last.rays.traced)
+		json["rays"] = raysJson(facts.series.last.rays);
 	json["memory"] = {
 		{ "lists", facts.memory.lists },   { "geometry", facts.memory.geometry }, { "textures", facts.memory.textures },
-		{ "images", facts.memory.images }, { "total", facts.memory.total() },
+		{ "images", facts.memory.images }, { "rays", facts.memory.rays },         { "total", facts.memory.total() },
 	};
 	return json;
 }

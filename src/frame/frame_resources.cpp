@@ -84,12 +84,8 @@ Status FrameResources::prepareRays(const FramePlan& plan, const PlanInput& input
 		rays_.drop();
 		return {};
 	}
-	const RayInputs inputs = { address("micro_vertices"),
-							   address("expanded_triangles"),
-							   address("ray_instances"),
-							   capacities_[LIST_MICRO_VERTICES],
-							   capacities_[LIST_EXPANDED_TRIANGLES],
-							   1 };
+	const RayInputs inputs = { address("micro_vertices"),        address("expanded_triangles"),        address("ray_instances"),
+							   capacities_[LIST_MICRO_VERTICES], capacities_[LIST_EXPANDED_TRIANGLES], 1 };
 	return rays_.prepare(inputs, input, *bindless_);
 }
 
@@ -180,9 +176,9 @@ Result<bool> FrameResources::growDump()
 	return true;
 }
 
-bool FrameResources::growRays()
+bool FrameResources::raysAreTooSmall()
 {
-	return rays_.exists() && rays_.reserveFor(head(LIST_EXPANDED_TRIANGLES).wanted);
+	return rays_.exists() && rays_.isTooSmallFor(head(LIST_EXPANDED_TRIANGLES).wanted);
 }
 
 void FrameResources::writeHistory(const View& view, bool makes_pyramid)

@@ -39,7 +39,7 @@ public:
 	Result<bool> growDump();
 	const DumpLayout& dumpLayout() const { return dump_; }
 	// The same for what rays are traced through: true when the last submitted frame had more micro-triangles than that was built of.
-	bool growRays();
+	bool raysAreTooSmall();
 	// Records the uploads of a round. `makes_pyramid`: it writes a depth pyramid. `steps`: candidates of rate_search, empty where the plan has none.
 	Status writeView(const View& view, uint32_t round, bool makes_pyramid, std::span<const RateStep> steps = {});
 	// Records that what follows draws from another camera (drawnFrom).
@@ -75,7 +75,9 @@ public:
 	Result<std::vector<std::byte>> read(std::string_view name, uint64_t bytes);
 
 private:
-	FrameResources(Device& device, const BuiltScene& scene, const TessellationTable& table) : device_(device), scene_(scene), table_(table), rays_(device) {}
+	FrameResources(Device& device, const BuiltScene& scene, const TessellationTable& table)
+		: device_(device), scene_(scene), table_(table), rays_(device)
+	{}
 	// Which of the two pyramids is this frame's, and what the frame before it saw.
 	void writeHistory(const View& view, bool makes_pyramid);
 	void dropUnkept(const FramePlan& plan);

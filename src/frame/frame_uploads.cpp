@@ -293,7 +293,9 @@ Status FrameResources::make(std::string_view name, const PlanInput& input)
 		return allocate(name, uint64_t(input.options.width_px) * input.options.height_px * sizeof(float));
 	if (name == "ray_instances")
 		return allocate(name, sizeof(RayInstance));
-	CHECK(name == "ray_geometry" || name == "ray_scene" || name == "ray_scratch" || name == "heads" || name == "surface" || name == "shading" || name == "height_texels", "nobody makes resource '{}'", name);
+	CHECK(name == "ray_geometry" || name == "ray_scene" || name == "ray_scratch" || name == "heads" || name == "surface" || name == "shading" ||
+			  name == "height_texels",
+		  "nobody makes resource '{}'", name);
 	return {};
 }
 

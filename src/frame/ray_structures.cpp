@@ -1,6 +1,7 @@
 #include "frame/ray_structures.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tessera
 {
@@ -8,7 +9,7 @@ namespace tessera
 namespace
 {
 
-constexpr uint32_t kStepTriangles = 1024;         // structures hold a multiple of it
+constexpr uint32_t kStepTriangles = 1024;  // structures hold a multiple of it
 constexpr uint32_t kVertexBytes = 16;
 
 uint32_t roundedUp(uint64_t triangles)
@@ -21,8 +22,7 @@ uint32_t roundedUp(uint64_t triangles)
 Status RayStructures::prepare(const RayInputs& inputs, const PlanInput& input, BindlessSet& bindless)
 {
 	inputs_ = inputs;
-	if (reserved_ == 0)
-		reserved_ = roundedUp(std::min<uint64_t>(input.scene.instanced_triangles, kFirstTriangles));
+	reserve(input);
 	reserved_ = std::min(reserved_, inputs.triangle_capacity);
 	TRY(makeGeometry(input));
 	TRY(makeScene(bindless));
@@ -43,8 +43,8 @@ Status RayStructures::makeGeometry(const PlanInput& input)
 	if (geometry_ && before == reserved_)
 		return {};
 	geometry_ = {};
-	TRY_ASSIGN(geometry_, AccelerationStructure::create(device_, geometry_build_->type(), geometry_build_->sizes(device_).structure_bytes,
-														"ray_geometry"));
+	TRY_ASSIGN(geometry_,
+			   AccelerationStructure::create(device_, geometry_build_->type(), geometry_build_->sizes(device_).structure_bytes, "ray_geometry"));
 	return {};
 }
 
@@ -55,8 +55,7 @@ Status RayStructures::makeScene(BindlessSet& bindless)
 	if (scene_ && before == inputs_.instance_count)
 		return {};
 	scene_ = {};
-	TRY_ASSIGN(scene_,
-			   AccelerationStructure::create(device_, scene_build_->type(), scene_build_->sizes(device_).structure_bytes, "ray_scene"));
+	TRY_ASSIGN(scene_, AccelerationStructure::create(device_, scene_build_->type(), scene_build_->sizes(device_).structure_bytes, "ray_scene"));
 	bindless.writeStructure(scene_.handle());
 	return {};
 }
@@ -82,16 +81,25 @@ void RayStructures::drop()
 	scratch_ = {};
 }
 
-bool RayStructures::reserveFor(uint32_t wanted)
+void RayStructures::reserve(const PlanInput& input)
 {
-	peak_ = std::max(peak_, wanted);
-	const bool fits = wanted <= reserved_;
-	if (fits)
-		peak_used_ = std::max(peak_used_, wanted);
+	const uint32_t wanted = std::exchange(most_wanted_, 0);
+	if (reserved_ == 0)
+		reserved_ = roundedUp(std::min<uint64_t>(input.scene.instanced_triangles, kFirstTriangles));
 	// Nearly full: a moving camera seldom draws a frame twice. Half empty: what is not there costs a little, too.
-	if (!fits || uint64_t(wanted) * 16 > uint64_t(reserved_) * 15 || wanted < reserved_ / 2)
+	const bool is_small = uint64_t(wanted) * 16 > uint64_t(reserved_) * 15, is_large = wanted < reserved_ / 2;
+	if (wanted > 0 && (is_small || is_large))
 		reserved_ = static_cast<uint32_t>(std::min<uint64_t>(roundedUp(uint64_t(wanted) * 9 / 8), device_.limits.most_structure_triangles));
-	return !fits;
+}
+
+bool RayStructures::isTooSmallFor(uint32_t wanted)
+{
+	most_wanted_ = std::max(most_wanted_, wanted);
+	peak_ = std::max(peak_, wanted);
+	if (wanted > reserved_)
+		return true;
+	peak_used_ = std::max(peak_used_, wanted);
+	return false;
 }
 
 void RayStructures::recordGeometry(VkCommandBuffer commands) const

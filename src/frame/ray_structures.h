@@ -26,16 +26,16 @@ class RayStructures
 public:
 	explicit RayStructures(Device& device) : device_(device) {}
 
-	// Makes the structures of a frame that is not drawn yet. `inputs` may be elsewhere than before. Writes the scene's descriptor where it is a new one.
-	// Errors: BadInput (out of memory).
+	// Makes the structures of a frame that is not drawn yet. `inputs` may be elsewhere than before. Writes the scene's descriptor where it is a new
+	// one. Errors: BadInput (out of memory).
 	Status prepare(const RayInputs& inputs, const PlanInput& input, BindlessSet& bindless);
 	// Lets go of everything.
 	void drop();
 
 	// Triangles that the frame's structure is built of; those that the frame does not have get no area.
 	uint32_t reserved() const { return reserved_; }
-	// After a frame that wanted this many. True when they were more than reserved: it must be drawn again, then with room for all.
-	bool reserveFor(uint32_t wanted);
+	// A round of the frame had this many. True when they are more than reserved: the frame must be drawn again, prepared anew with room for all.
+	bool isTooSmallFor(uint32_t wanted);
 
 	uint64_t geometryAddress() const { return geometry_.address(); }
 	void recordGeometry(VkCommandBuffer commands) const;
@@ -46,6 +46,7 @@ public:
 	RayStats stats(uint32_t wanted) const;
 
 private:
+	void reserve(const PlanInput& input);
 	Status makeGeometry(const PlanInput& input);
 	Status makeScene(BindlessSet& bindless);
 	Status makeScratch();
@@ -56,6 +57,7 @@ private:
 	AccelerationStructure geometry_, scene_;
 	Buffer scratch_;
 	uint32_t reserved_ = 0, peak_ = 0, peak_used_ = 0;
+	uint32_t most_wanted_ = 0;  // of all rounds since the last preparation
 };
 
 }  // namespace tessera

@@ -194,9 +194,10 @@ private:
 		if (attempt_.rounds > kMostRounds)
 			return badInput("{}: the frame needs more than {} rounds; make its lists larger (--capacity)", scene_.path, kMostRounds);
 		if (attempt_.rounds > 1 && tracesLight(input_))
-			return badInput("{}: the frame needs {} rounds, and shadows and ambient occlusion need all of it at once; make its lists larger (--capacity "
-							"visible_clusters, full_clusters)",
-							scene_.path, attempt_.rounds);
+			return badInput(
+				"{}: the frame needs {} rounds, and shadows and ambient occlusion need all of it at once; make its lists larger (--capacity "
+				"visible_clusters, full_clusters)",
+				scene_.path, attempt_.rounds);
 		++attempts_;
 		grew_ = false;
 		outcome_ = { true, true, attempt_.coarsening };
@@ -252,7 +253,7 @@ private:
 		TRY(runner_->readTimes());
 		addTimes(*runner_, plan_, result_);
 		judge(attempt_);
-		grew_ |= resources_->growRays();
+		grew_ |= resources_->raysAreTooSmall();
 		addCounts(*resources_, result_.counts);
 		if (!outcome_.fits || grew_)
 			return {};

@@ -27,6 +27,7 @@ struct ListStats
 struct RayStats
 {
 	bool traced = false;
+	bool refitted = false;             // the last build moved vertices of the one before; else all was built
 	ListStats triangles;               // wanted: those of the frame; capacity: those that the structure is built of
 	uint64_t geometry_bytes = 0;       // reserved
 	uint64_t geometry_used_bytes = 0;  // what the driver asks for as many as the frame has

@@ -10,7 +10,8 @@ namespace
 
 VkBuildAccelerationStructureFlagsKHR flagsOf(const BuildFlags& flags)
 {
-	return (flags.fast_trace ? VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR : VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_BUILD_BIT_KHR) |
+	return (flags.fast_trace ? VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR
+							 : VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_BUILD_BIT_KHR) |
 		   (flags.can_update ? VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_UPDATE_BIT_KHR : 0);
 }
 
@@ -58,7 +59,8 @@ StructureBuild::Sizes StructureBuild::sizes(const Device& device, uint32_t count
 	return { sizes.accelerationStructureSize, sizes.buildScratchSize, sizes.updateScratchSize };
 }
 
-void StructureBuild::record(const Device& device, VkCommandBuffer commands, VkAccelerationStructureKHR structure, uint64_t scratch, BuildMode mode) const
+void StructureBuild::record(const Device& device, VkCommandBuffer commands, VkAccelerationStructureKHR structure, uint64_t scratch,
+							BuildMode mode) const
 {
 	VkAccelerationStructureBuildGeometryInfoKHR build = info(geometry_);
 	const bool updates = mode == BuildMode::Update;

@@ -121,8 +121,8 @@ void DeviceFeatures::enableRays()
 	enabled_structures_.pNext = std::exchange(enabled13_.pNext, &enabled_structures_);
 	enabled_rays_.rayTracingPipeline = VK_TRUE;
 	enabled_rays_.pNext = std::exchange(enabled13_.pNext, &enabled_rays_);
-	for (const char* extension : { VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
-								   VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME })
+	for (const char* extension :
+		 { VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME })
 		extensions_.push_back(extension);
 }
 
@@ -136,8 +136,7 @@ void describeDevice(Device& device)
 	VkPhysicalDeviceRayTracingPipelinePropertiesKHR rays = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR };
 	VkPhysicalDeviceAccelerationStructurePropertiesKHR structures = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR,
 																	  &rays };
-	VkPhysicalDeviceMeshShaderPropertiesEXT mesh = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_PROPERTIES_EXT,
-													 &structures };
+	VkPhysicalDeviceMeshShaderPropertiesEXT mesh = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_PROPERTIES_EXT, &structures };
 	VkPhysicalDeviceVulkan11Properties vulkan11 = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES, &mesh };
 	VkPhysicalDeviceVulkan13Properties vulkan13 = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES, &vulkan11 };
 	VkPhysicalDeviceDriverProperties driver = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, &vulkan13 };

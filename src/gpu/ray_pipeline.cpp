@@ -95,9 +95,9 @@ Result<Pipeline> makeRayPipeline(Device& device, CommandRecorder& commands, VkPi
 	info.maxPipelineRayRecursionDepth = 1;
 	info.layout = layout;
 	VkPipeline handle = VK_NULL_HANDLE;
-	const VkResult result = loaded ? device.functions.create_ray_tracing_pipelines(device.handle, VK_NULL_HANDLE, device.pipeline_cache, 1, &info,
-																				   nullptr, &handle)
-								   : VK_SUCCESS;
+	const VkResult result =
+		loaded ? device.functions.create_ray_tracing_pipelines(device.handle, VK_NULL_HANDLE, device.pipeline_cache, 1, &info, nullptr, &handle)
+			   : VK_SUCCESS;
 	for (const auto& stage : stages)
 		vkDestroyShaderModule(device.handle, stage.module, nullptr);
 	TRY(loaded);

@@ -104,8 +104,10 @@ inline constexpr Condition kTessellates = { [](const PlanInput& input) { return 
 inline constexpr Condition kDoesNotTessellate = { [](const PlanInput& input) { return !kTessellates.holds(input); }, "cluster_classify writes it" };
 inline constexpr Condition kSplits = { [](const PlanInput& input) { return kTessellates.holds(input) && input.view.split_levels > 0; },
 									   "no edge can exceed the table at this rate and camera" };
-inline constexpr Condition kCulls = { [](const PlanInput& input) { return culling(input).any(); }, "culling is off, or rays may meet what it would remove" };
-inline constexpr Condition kFrustumCulls = { [](const PlanInput& input) { return culling(input).frustum; }, "frustum culling is off, or rays may meet what it would remove" };
+inline constexpr Condition kCulls = { [](const PlanInput& input) { return culling(input).any(); },
+									  "culling is off, or rays may meet what it would remove" };
+inline constexpr Condition kFrustumCulls = { [](const PlanInput& input) { return culling(input).frustum; },
+											 "frustum culling is off, or rays may meet what it would remove" };
 inline constexpr Condition kSoft = { [](const PlanInput& input) { return usesSoft(input) && input.device.buffer_atomics_64; },
 									 "another producer of visibility is chosen, or the device lacks 64-bit buffer atomics" };
 inline constexpr Condition kMayHide = { [](const PlanInput& input) { return culling(input).occlusion && kSoft.holds(input); },
@@ -131,10 +133,10 @@ inline constexpr Condition kShadows = { [](const PlanInput& input) { return trac
 										"--shadows is off, the view shows no light, or the device cannot trace rays" };
 inline constexpr Condition kAmbientOcclusion = { [](const PlanInput& input) { return tracesAmbient(input) && input.device.rays; },
 												 "--ao is 0, the view shows no light, or the device cannot trace rays" };
-inline constexpr Condition kRtMixedSides = {
-	[](const PlanInput& input) { return kRt.holds(input) && input.scene.has_single_sided && input.scene.has_double_sided; },
-	"all materials show the same sides"
-};
+inline constexpr Condition kRtMixedSides = { [](const PlanInput& input) {
+												return kRt.holds(input) && input.scene.has_single_sided && input.scene.has_double_sided;
+											},
+											 "all materials show the same sides" };
 inline constexpr Condition kRtMixedSidesOfParts = { [](const PlanInput& input) { return kRtMixedSides.holds(input) && kTessellates.holds(input); },
 													"all materials show the same sides, or nothing is tessellated" };
 // Micro-vertices and indices in memory: for those who do not evaluate their own.

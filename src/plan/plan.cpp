@@ -9,7 +9,8 @@ namespace tessera
 
 bool writes(Access access)
 {
-	return access == Access::ComputeWrite || access == Access::BuildWrite || access == Access::RayWrite || access == Access::Color || access == Access::Depth || access == Access::CopyWrite;
+	return access == Access::ComputeWrite || access == Access::BuildWrite || access == Access::RayWrite || access == Access::Color ||
+		   access == Access::Depth || access == Access::CopyWrite;
 }
 
 namespace
@@ -164,8 +165,7 @@ bool isMade(std::string_view kind)
 
 bool isMadeByPasses(std::string_view resource, std::span<const ResourceDesc> resources)
 {
-	return std::any_of(resources.begin(), resources.end(),
-					   [&](const ResourceDesc& desc) { return desc.name == resource && isMade(desc.kind); });
+	return std::any_of(resources.begin(), resources.end(), [&](const ResourceDesc& desc) { return desc.name == resource && isMade(desc.kind); });
 }
 
 // Errors: DeviceCannot when a step reads what no step before it makes, with the reasons of the passes that could.
@@ -231,9 +231,8 @@ bool FramePlan::everyReadHasAnEarlierWriteAndABarrier(const PlanInput& input) co
 					}
 			}
 			// What the host fills is there before the first step.
-			const bool by_passes = std::any_of(resources.begin(), resources.end(), [&](const PlannedResource& made) {
-				return made.name == read.resource && isMade(made.kind);
-			});
+			const bool by_passes = std::any_of(resources.begin(), resources.end(),
+											   [&](const PlannedResource& made) { return made.name == read.resource && isMade(made.kind); });
 			if (found ? !ordered : by_passes)
 				return false;
 		}

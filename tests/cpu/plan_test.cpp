@@ -351,6 +351,88 @@ TEST(framePlan, whatCannotBeDrawnIsRefusedWithTheReasons)
 	EXPECT_NE(plan.error().message.find("draw_indexed: "), std::string::npos) << plan.error().message;
 }
 
+TEST(framePlan, nothingOfRaysIsPlannedUntilAskedFor)
+{
+	PlanInput input = fullInput();
+	input.device.rays = true;
+	const FramePlan plan = planOf(input);
+	expectDropped(plan, { "build_geometry", "place_instances", "build_scene", "trace_visibility", "trace_shadows", "trace_ambient" });
+	expectLeftOut(plan,
+				  { "ray_instances", "ray_geometry", "ray_scene", "ray_scratch", "sun_visibility", "ambient_visibility", "expanded_triangles" });
+	for (const char* feature : { "HAS_RAYS", "HAS_SHADOWS", "HAS_AMBIENT_OCCLUSION" })
+		EXPECT_FALSE(featureOn(plan, feature)) << feature;
+}
+
+TEST(framePlan, raysFindVisibilityInPlaceOfRasterisers)
+{
+	PlanInput input = fullInput();
+	input.device.rays = true;
+	input.options.raster = Raster::Rt;
+	const FramePlan plan = planOf(input);
+	for (const char* pass : { "evaluate_vertices", "build_geometry", "build_scene", "trace_visibility" })
+		EXPECT_TRUE(plan.has(pass)) << pass;
+	expectDropped(plan, { "raster_micro", "draw_clusters", "draw_batches", "draw_indexed", "trace_shadows", "trace_ambient", "depth_pyramid" });
+	expectLeftOut(plan, { "visibility_depth", "visibility_payload", "indexed_draw" });
+	EXPECT_TRUE(featureOn(plan, "HAS_CULLING")) << "what is out of view is met by no primary ray";
+	EXPECT_FALSE(featureOn(plan, "HAS_OCCLUSION"));
+}
+
+TEST(framePlan, lightKeepsWhatCullingWouldRemove)
+{
+	PlanInput input = fullInput();
+	input.device.rays = input.device.buffer_atomics_64 = true;
+	input.options.raster = Raster::Soft;
+	input.options.shadows = true;
+	const FramePlan plan = planOf(input);
+	EXPECT_TRUE(plan.has("trace_shadows"));
+	expectDropped(plan, { "trace_ambient", "trace_visibility", "depth_pyramid", "raster_revealed" });
+	expectLeftOut(plan, { "ambient_visibility", "cluster_bounds", "mesh_bounds" });
+	EXPECT_FALSE(featureOn(plan, "HAS_CULLING"));
+	// Views that show no light trace none, and cull again.
+	input.options.view = ViewMode::Factors;
+	const FramePlan view = planOf(input);
+	expectDropped(view, { "trace_shadows", "build_geometry" });
+	EXPECT_TRUE(featureOn(view, "HAS_CULLING"));
+}
+
+TEST(framePlan, raysOfADeviceThatHasNoneAreRefusedWithTheReason)
+{
+	PlanInput input = fullInput();
+	input.options.raster = Raster::Rt;
+	const Result<FramePlan> plan = planFrame(framePasses(), resourceDescs(), kWanted, input);
+	ASSERT_FALSE(plan);
+	EXPECT_EQ(plan.error().code, ExitCode::DeviceCannot);
+	EXPECT_NE(plan.error().message.find("lacks acceleration structures"), std::string::npos) << plan.error().message;
+}
+
+TEST(framePlan, everyAccessOfRaysIsOrderedToo)
+{
+	for (uint32_t i = 0; i < 256; ++i)
+	{
+		const auto bit = [&](uint32_t b) {
+			return (i >> b & 1u) != 0;
+		};
+		PlanInput input = fullInput();
+		input.device.rays = input.device.buffer_atomics_64 = true;
+		constexpr Raster kRasters[] = { Raster::Soft, Raster::Mesh, Raster::Indexed, Raster::Rt };
+		input.options.raster = kRasters[i % 4];
+		input.options.shadows = bit(2);
+		input.options.ao_samples = bit(3) ? 4 : 0;
+		input.options.rate = bit(4) ? 4.0f : 0.0f;
+		input.scene.has_double_sided = bit(5);
+		input.view.split_levels = bit(6) ? 3 : 0;
+		input.options.view = bit(7) ? ViewMode::Shaded : ViewMode::Clusters;
+		const FramePlan plan = planOf(input);
+		ASSERT_TRUE(plan.everyReadHasAnEarlierWriteAndABarrier(input)) << i;
+		ASSERT_TRUE(everyConflictIsOrdered(plan, input)) << i;
+		ASSERT_EQ(readBeforeWritten(plan, input), "") << i;
+		for (const PassDesc* pass : framePasses())
+			ASSERT_EQ(plan.has(pass->name), plan.reason(pass->name).empty()) << pass->name;
+		for (const PlannedResource& resource : plan.resources)
+			ASSERT_EQ(resource.kept, resource.reason.empty()) << resource.name;
+	}
+}
+
 TEST(framePlan, onlyTheFirstDrawClearsDepth)
 {
 	const FramePlan plan = planOf(fullInput());

@@ -12,6 +12,14 @@ foreach(name IN ITEMS list_end_test occlusion_test out_of_memory_test picture_te
   gtest_discover_tests(gpu_${name} PROPERTIES LABELS gpu)
 endforeach()
 
+# Rays against the compute rasteriser by the check of `tessera verify`, and light against closed forms.
+foreach(name IN ITEMS primary_test light_test)
+  add_executable(gpu_ray_${name} ${here}/raytracing/${name}.cpp)
+  target_link_libraries(gpu_ray_${name} PRIVATE gpu_test_base tessera_verify)
+  add_dependencies(gpu_ray_${name} tessera_shaders)
+  gtest_discover_tests(gpu_ray_${name} PROPERTIES LABELS gpu)
+endforeach()
+
 # Runs both the checks in this process and the program.
 foreach(name IN ITEMS verify_test verify_slow_test)
   add_executable(gpu_${name} ${here}/${name}.cpp ${here}/../cpu/program_run.cpp)

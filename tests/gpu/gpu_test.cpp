@@ -178,6 +178,8 @@ std::vector<Raster> rasterPaths()
 		paths.push_back(Raster::Indexed);
 	if (gpu().gates.buffer_atomics_64)
 		paths.push_back(Raster::Soft);
+	if (gpu().gates.rays())
+		paths.push_back(Raster::Rt);
 	return paths;
 }
 
@@ -185,6 +187,7 @@ std::vector<Raster> drawingPaths()
 {
 	std::vector<Raster> paths = rasterPaths();
 	std::erase(paths, Raster::Soft);
+	std::erase(paths, Raster::Rt);
 	return paths;
 }
 

@@ -9,9 +9,15 @@ namespace tessera
 // Evaluation happened in evaluate_vertices; only telling sides apart needs more than vertices, indices and payloads.
 static constexpr Use kUses[] = {
 	{ "view", Access::VertexRead, &kRays },
-	{ "micro_vertices", Access::VertexRead }, { "expanded_triangles", Access::IndexRead },  { "expanded_triangles", Access::FragmentRead },
-	{ "indexed_draw", Access::Indirect },     { "visible_clusters", Access::FragmentRead }, { "part_triangles", Access::FragmentRead, &kTessellates },
-	{ "clusters", Access::FragmentRead },     { "material_flags", Access::FragmentRead },   { "visibility_depth", Access::Depth },
+	{ "micro_vertices", Access::VertexRead },
+	{ "expanded_triangles", Access::IndexRead },
+	{ "expanded_triangles", Access::FragmentRead },
+	{ "indexed_draw", Access::Indirect },
+	{ "visible_clusters", Access::FragmentRead },
+	{ "part_triangles", Access::FragmentRead, &kTessellates },
+	{ "clusters", Access::FragmentRead },
+	{ "material_flags", Access::FragmentRead },
+	{ "visibility_depth", Access::Depth },
 	{ "visibility_payload", Access::Color },
 };
 

@@ -16,6 +16,7 @@ void draw(Ui&, Session& session)
 		valueRow("geometry", bytesText(memory.geometry));
 		valueRow("textures", bytesText(memory.textures));
 		valueRow("images", bytesText(memory.images));
+		valueRow("rays", bytesText(memory.rays));
 		valueRow("together", bytesText(memory.total()));
 		ImGui::EndTable();
 	}

@@ -7,13 +7,15 @@ namespace tessera::view
 namespace
 {
 
-constexpr std::string_view kOptions[] = { "view", "wireframe", "shading" };
+constexpr std::string_view kOptions[] = { "view", "wireframe", "shading", "shadows", "ao", "ao-radius" };
 
 void draw(Ui& ui, Session& session)
 {
 	ui.option("view", session.options);
 	ui.option("wireframe", session.options);
 	ui.option("shading", session.options);
+	for (const char* option : { "shadows", "ao", "ao-radius" })
+		ui.option(option, session.options);
 	const ViewMode view = session.options.view;
 	const char* scale = view == ViewMode::Factors ? "1 (blue) to 11 (red) segments"
 						: view == ViewMode::Area  ? "1/16 (blue) to 256 (red) square pixels, logarithmic"

@@ -1,0 +1,190 @@
+// Rays through pixels' centres see what the compute rasteriser sees; what they are traced through follows the demand.
+#include "ray_test.h"
+
+#include "verify/cameras.h"
+#include "verify/frame_source.h"
+#include "verify/paths_check.h"
+#include "verify/screen.h"
+
+#include "pipeline/passes.h"
+
+namespace tessera::test
+{
+
+namespace
+{
+
+using rays = RayTest;
+
+std::unique_ptr<verify::FrameSource> sourceOf(const GpuScene& scene, const RenderOptions& options, bool with_micro)
+{
+	auto source = verify::FrameSource::create(gpu(), scene.host, scene.built, scene.table, options, with_micro, {}, 1);
+	EXPECT_TRUE(source) << (source ? "" : source.error().message);
+	return source ? std::move(*source) : nullptr;
+}
+
+verify::Capture captured(verify::FrameSource& source, const Camera& camera, float rate)
+{
+	auto capture = source.capture(camera, rate);
+	EXPECT_TRUE(capture) << (capture ? "" : capture.error().message);
+	return capture ? std::move(*capture) : verify::Capture();
+}
+
+std::unique_ptr<Renderer> rendererOf(const GpuScene& scene, const RenderOptions& options)
+{
+	auto renderer = Renderer::create(gpu(), scene.built, scene.table, framePasses(), options);
+	EXPECT_TRUE(renderer) << (renderer ? "" : renderer.error().message);
+	return renderer ? std::move(*renderer) : nullptr;
+}
+
+struct Drawn
+{
+	FrameResult result;
+	std::vector<uint8_t> picture;
+};
+
+Drawn drawnBy(Renderer& renderer, const Camera& camera)
+{
+	Drawn drawn;
+	auto result = renderer.renderFrame(camera);
+	auto picture = renderer.readPicture();
+	EXPECT_TRUE(result && picture) << (result ? "" : result.error().message);
+	if (result && picture)
+		drawn = { std::move(*result), std::move(*picture) };
+	return drawn;
+}
+
+const ListStats& listOf(const FrameResult& result, std::string_view name)
+{
+	static const ListStats kNone;
+	const auto found = std::find_if(result.lists.begin(), result.lists.end(), [&](const ListStats& list) { return list.name == name; });
+	EXPECT_NE(found, result.lists.end()) << name;
+	return found == result.lists.end() ? kNone : *found;
+}
+
+// From all cameras, rays may differ from the compute rasteriser only at edges.
+void expectSameVisibility(const GpuScene& scene, const std::string& name, float rate, const std::vector<verify::NamedCamera>& cameras)
+{
+	const auto soft = sourceOf(scene, rayOptions(rate, Raster::Soft), true), rt = sourceOf(scene, rayOptions(rate, Raster::Rt), false);
+	ASSERT_TRUE(soft && rt) << name;
+	uint64_t covered = 0, differ = 0;
+	for (const verify::NamedCamera& camera : cameras)
+	{
+		const std::string what = fmt::format("{} at rate {}, camera {}", name, rate, camera.name);
+		const verify::Capture expected = captured(*soft, camera.camera, rate), found = captured(*rt, camera.camera, rate);
+		verify::CheckResult check =
+			verify::checkPaths(verify::Screen(scene.host, expected.view), expected.micro, expected.visible, found.visible, "rt");
+		EXPECT_EQ(check.violations, 0u) << what << ": " << verify::describe(check.place);
+		EXPECT_EQ(expected.result.counts.micro_triangles, found.result.counts.micro_triangles) << what;
+		covered += expected.visible.covered();
+		differ += check.sums["pixels that differ"];
+	}
+	EXPECT_GT(covered, cameras.size() * 96 * 54 / 20) << name << ": too little is seen";
+	EXPECT_LE(differ * 50, covered) << name;
+}
+
+// The scene's camera and random ones: far, close, within, grazing, narrow and wide.
+std::vector<verify::NamedCamera> camerasOf(const GpuScene& scene, uint64_t seed, uint32_t count)
+{
+	std::vector<verify::NamedCamera> cameras = verify::randomCameras(scene.built, seed, count);
+	cameras.push_back({ "its own", scene.camera });
+	return cameras;
+}
+
+}  // namespace
+
+TEST_F(rays, primaryRaysSeeWhatTheComputeRasteriserSees)
+{
+	for (const char* name : { "planet", "bricks" })
+	{
+		const auto scene = gpuScene(name);
+		expectSameVisibility(*scene, name, 5, camerasOf(*scene, 11, 6));
+	}
+}
+
+TEST_F(rays, primaryRaysSeeMirroredShearedAndUntessellatedInstances)
+{
+	const GpuScene uneven(unevenScene());
+	expectSameVisibility(uneven, "uneven instances", 6, camerasOf(uneven, 5, 3));
+	expectSameVisibility(uneven, "uneven instances", 0, camerasOf(uneven, 6, 3));
+}
+
+// Back faces of single-sided materials are looked through, those of double-sided ones are not; in one scene both occur.
+TEST_F(rays, primaryRaysKnowTheSidesOfMaterials)
+{
+	ImportedScene imported = soupScene(3, 60);
+	imported.materials[0].double_sided = true;
+	const GpuScene soup(imported);
+	ASSERT_TRUE(soup.built.traits.has_single_sided && soup.built.traits.has_double_sided) << "the scene has only one kind";
+	expectSameVisibility(soup, "soup", 8, camerasOf(soup, 2, 3));
+	expectSameVisibility(soup, "soup", 0, camerasOf(soup, 3, 1));
+}
+
+TEST_F(rays, orthographicRaysToo)
+{
+	const auto scene = gpuScene("bricks");
+	Camera camera = scene->camera;
+	camera.orthographic = true;
+	camera.height_world = boundingRadius(scene->built);
+	expectSameVisibility(*scene, "bricks", 5, { { "orthographic", camera } });
+}
+
+TEST_F(rays, aReservationThatIsTooSmallIsMadeLargerInTheSameFrameAndNothingIsMissing)
+{
+	const auto scene = gpuScene("planet");
+	const Camera far = closeTo(*scene, 30), near = closeTo(*scene, 0.5);
+	const auto renderer = rendererOf(*scene, rayOptions(2, Raster::Rt)), fresh = rendererOf(*scene, rayOptions(2, Raster::Rt));
+	ASSERT_TRUE(renderer && fresh);
+	const Drawn before = drawnBy(*renderer, far), after = drawnBy(*renderer, near), expected = drawnBy(*fresh, near);
+	const ListStats &small = listOf(before.result, "ray_geometry"), &large = listOf(after.result, "ray_geometry");
+	ASSERT_GT(large.wanted, small.capacity) << "the near frame does not need more than the far one had";
+	EXPECT_GT(after.result.attempts, 1u);
+	EXPECT_LE(large.wanted, large.capacity);
+	EXPECT_EQ(large.wanted, after.result.counts.micro_triangles);
+	EXPECT_EQ(differingPixels(after.picture, expected.picture), 0u);
+	// Once it is large enough, a frame is drawn once; after a small one it shrinks.
+	EXPECT_EQ(drawnBy(*renderer, near).result.attempts, 1u);
+	drawnBy(*renderer, far);
+	EXPECT_LT(listOf(drawnBy(*renderer, far).result, "ray_geometry").capacity, large.capacity);
+}
+
+TEST_F(rays, repeatedFramesAreTheSameBits)
+{
+	const auto scene = gpuScene("bricks");
+	RenderOptions options = rayOptions(5, Raster::Rt);
+	options.shadows = true;
+	options.ao_samples = 2;
+	const auto renderer = rendererOf(*scene, options), other = rendererOf(*scene, options);
+	ASSERT_TRUE(renderer && other);
+	const Drawn first = drawnBy(*renderer, scene->camera);
+	EXPECT_EQ(differingPixels(first.picture, drawnBy(*renderer, scene->camera).picture), 0u);
+	EXPECT_EQ(differingPixels(first.picture, drawnBy(*other, scene->camera).picture), 0u);
+}
+
+// More clusters than the lists hold: each round has structures of its own, and the nearest of all rounds is seen.
+TEST_F(rays, aSceneInRoundsIsSeenAsOne)
+{
+	const auto scene = gpuScene("instances:30", { 24, 16 });
+	RenderOptions options = rayOptions(8, Raster::Rt);
+	const Drawn whole = drawnBy(*rendererOf(*scene, options), scene->camera);
+	options.capacities = { { "visible_clusters", 300 } };
+	const Drawn parts = drawnBy(*rendererOf(*scene, options), scene->camera);
+	EXPECT_GT(parts.result.rounds, 1u);
+	EXPECT_EQ(whole.result.counts.covered_pixels, parts.result.counts.covered_pixels);
+	EXPECT_EQ(differingPixels(whole.picture, parts.picture), 0u);
+}
+
+TEST_F(rays, lightThatNeedsWholeFramesRefusesRounds)
+{
+	const auto scene = gpuScene("instances:30", { 24, 16 });
+	RenderOptions options = rayOptions(8, Raster::Soft);
+	options.shadows = true;
+	options.capacities = { { "visible_clusters", 300 } };
+	const auto renderer = rendererOf(*scene, options);
+	const auto result = renderer->renderFrame(scene->camera);
+	ASSERT_FALSE(result);
+	EXPECT_EQ(result.error().code, ExitCode::BadInput);
+	EXPECT_NE(result.error().message.find("--capacity"), std::string::npos) << result.error().message;
+}
+
+}  // namespace tessera::test
