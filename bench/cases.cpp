@@ -123,6 +123,22 @@ void addTriangleSweep(const Settings& settings, std::vector<Case>& cases)
 	}
 }
 
+// The same terrain, shadowed: 1e4 to 1e7 micro-triangles built into what rays are traced through, whoever finds visibility.
+void addRaySweep(const Settings& settings, std::vector<Case>& cases)
+{
+	const int steps = settings.quick ? 2 : 7;
+	for (int i = 0; i < steps; ++i)
+	{
+		const float rate = static_cast<float>(*readNumber(fmt::format("{:.3g}", 14.0 * std::pow(10, -i / 4.0))));
+		const auto aim = [](Case& row) {
+			lookAt(row, kTerrain);
+			row.options.shadows = true;
+			row.options.ao_samples = std::max(1u, row.options.ao_samples);
+		};
+		addStep(settings, "rays", settings.quick ? kSmall : kFullHd, rate, aim, cases);
+	}
+}
+
 void addInstanceSweep(const Settings& settings, std::vector<Case>& cases)
 {
 	const uint32_t most = settings.quick ? 1000 : 1'000'000;
@@ -181,6 +197,8 @@ std::vector<Case> scalingCases(const Settings& settings)
 	{
 		if (name == "triangles")
 			addTriangleSweep(settings, cases);
+		else if (name == "rays")
+			addRaySweep(settings, cases);
 		else if (name == "instances")
 			addInstanceSweep(settings, cases);
 		else

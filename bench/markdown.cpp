@@ -166,6 +166,35 @@ std::string comparisonText(const PageFacts& facts)
 	return text;
 }
 
+// What a driver was measured to take for a million triangles, H100, driver 580.159: a build that prefers building fast.
+constexpr double kDriverBuildMs = 1.19;
+
+// Building and tracing by themselves.
+std::string raysText(std::span<const Row> rows)
+{
+	std::string text = "\n## Building and tracing\n\nLimit: what the driver alone took for as many triangles of one grid (H100).\n\n";
+	text += headOf({ "raster", "rate px", "Mtri", "reserved Mtri", "build ms", "ms per reserved Mtri", "limit ms", "primary ms", "shadows ms",
+					 "ambient ms", "rays per pixel", "structures MiB" },
+				   1);
+	for (const Row& row : rows)
+	{
+		if (row.what.series != "rays" || row.state == RowState::Failed)
+			continue;
+		const auto took = [&](const char* pass) {
+			const auto found = row.frames.passes.find(pass);
+			return found == row.frames.passes.end() ? 0 : found->second.median();
+		};
+		const RayStats& rays = row.frames.last.rays;
+		const double millions_built = double(rays.triangles.capacity) * 1e-6, build_ms = took("build_geometry");
+		text +=
+			lineOf({ row.what.raster, fmt::format("{}", row.what.options.rate), millions(rays.triangles.wanted), millions(rays.triangles.capacity),
+					 msText(build_ms), msText(millions_built > 0 ? build_ms / millions_built : 0), msText(kDriverBuildMs * millions_built),
+					 msText(took("trace_visibility")), msText(took("trace_shadows")), msText(took("trace_ambient")),
+					 fmt::format("{}", row.what.options.ao_samples + 1), fmt::format("{:.1f}", toMib(rays.total())) });
+	}
+	return text;
+}
+
 std::string sweepText(std::span<const Row> rows, std::string_view series, uint32_t frames)
 {
 	const std::string unit(unitOf(series));
@@ -173,6 +202,8 @@ std::string sweepText(std::span<const Row> rows, std::string_view series, uint32
 	text += headOf({ "scene", "size", "raster", "cull", "rate px", unit + "s", "Mtri", "gpu ms", "min", "max", "ns per " + unit,
 					 "ns per added " + unit, "lists MiB", "total MiB", "note" },
 				   4);
+	if (series == "rays")
+		text = raysText(rows) + text;
 	for (const Row& row : rows)
 	{
 		if (row.what.series != series)

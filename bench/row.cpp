@@ -189,12 +189,12 @@ double toMib(uint64_t bytes)
 
 std::string_view unitOf(std::string_view series)
 {
-	return series == "triangles" ? "micro-triangle" : series == "instances" ? "instance" : series == "size" ? "pixel" : "";
+	return series == "triangles" || series == "rays" ? "micro-triangle" : series == "instances" ? "instance" : series == "size" ? "pixel" : "";
 }
 
 double unitCount(const Row& row)
 {
-	if (row.what.series == "triangles")
+	if (unitOf(row.what.series) == "micro-triangle")
 		return double(countsOf(row).micro_triangles);
 	if (row.what.series == "instances")
 		return double(row.what.copies);

@@ -14,6 +14,10 @@
 #extension GL_GOOGLE_include_directive : require
 // Before every include: glslang takes a workgroup size that is used before it is declared for 1.
 layout(local_size_x_id = 0) in;
+// Batches of mesh shaders or, where rays are traced beside or in place of the compute rasteriser, of that.
+#define STAGED_PARTS BATCH_MAX_PARTS
+#define STAGED_VERTICES RASTER_BATCH_VERTICES
+#define STAGED_TRIANGLES RASTER_BATCH_TRIANGLES
 #include "lib/features.glsl"
 #include "lib/frame_data.glsl"
 #include "raster/evaluate_vertices.h"

@@ -7,7 +7,7 @@ namespace tessera
 {
 
 static constexpr auto kUses = joinUses(surfaceUses(Access::ComputeRead), partUses(Access::ComputeRead),
-									   std::array<Use, 12>{ {
+									   std::array<Use, 13>{ {
 										   { "shading", Access::ComputeRead },
 										   { "materials", Access::ComputeRead },
 										   { "normals", Access::ComputeRead, &kNormals },
@@ -16,6 +16,7 @@ static constexpr auto kUses = joinUses(surfaceUses(Access::ComputeRead), partUse
 										   { "colors", Access::ComputeRead, &kVertexColors },
 										   { "visibility_depth", Access::ComputeRead, &kDraws },
 										   { "visibility_payload", Access::ComputeRead, &kDraws },
+										   { "visibility_buffer", Access::ComputeRead, &kBuffered },
 										   { "visibility_buffer", Access::ComputeWrite, &kBuffered },
 										   { "sun_visibility", Access::ComputeRead, &kShadows },
 										   { "ambient_visibility", Access::ComputeRead, &kAmbientOcclusion },
