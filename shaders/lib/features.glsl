@@ -28,6 +28,7 @@ layout(constant_id = 23) const bool HAS_OCCLUSION = true;
 layout(constant_id = 40) const bool HAS_HEIGHT_FOOTPRINTS = false;
 layout(constant_id = 14) const bool READS_BUFFER = true;
 layout(constant_id = 24) const bool HAS_RAYS = true;
+layout(constant_id = 27) const bool KEEPS_PLACES = false;
 layout(constant_id = 25) const bool HAS_SHADOWS = true;
 layout(constant_id = 26) const bool HAS_AMBIENT_OCCLUSION = true;
 

@@ -4,7 +4,8 @@
 //   out  micro_vertices       vec4[]   clip coordinates, or places relative to the eye where rays are traced; a batch's or cluster's range was
 //                                      taken when it was listed. Behind the last one that the list can hold lies one more, for triangles that are not there
 //   out  expanded_triangles   uint[]   only when drawn indexed or traced: three indices per triangle for the whole list, then one
-//                                      payload per triangle; ranges are taken by atomics, so their order is free. A build takes its count
+//                                      payload per triangle; ranges are taken by atomics, so their order is free, unless
+//                                      every cluster keeps its place (KEEPS_PLACES). A build takes its count
 //                                      from the host: triangles that it has and the frame has not get no area
 //
 // In compute and not in the mesh shader: some devices run mesh shaders on few of their processors, and the same vertices
@@ -43,17 +44,38 @@ void writeTriangle(uint triangle, uint first_vertex, uvec3 corners, uint payload
 	args.indices.at[3u * args.heads.at[LIST_EXPANDED_TRIANGLES].capacity + triangle] = payload;
 }
 
-void evaluateItem(WorkItem item)
+// The item's vertices begin there.
+uint vertexPlace(WorkItem item)
 {
-	for (uint v = gl_LocalInvocationIndex; v < item.vertex_count; v += gl_WorkGroupSize.x)
-		args.vertices.at[item.first_vertex + v] = keptVertex(itemVertex(args.inputs, item, v));
-	if (EXPANDS_TRIANGLES)
+	return KEEPS_PLACES ? args.inputs.instances.at[args.inputs.visible_clusters.at[item.parts].instance].vertex_place + item_cluster.first_vertex
+	                    : item.first_vertex;
+}
+
+// And its triangles, in first_triangle. Ends with a barrier.
+void placeTriangles(WorkItem item)
+{
+	if (!KEEPS_PLACES)
 	{
 		takeTriangles(item.triangle_count);
+		return;
+	}
+	if (gl_LocalInvocationIndex == 0u)
+		first_triangle = args.inputs.instances.at[args.inputs.visible_clusters.at[item.parts].instance].triangle_place + item_cluster.first_triangle;
+	barrier();
+}
+
+void evaluateItem(WorkItem item)
+{
+	uint first_vertex = vertexPlace(item);
+	for (uint v = gl_LocalInvocationIndex; v < item.vertex_count; v += gl_WorkGroupSize.x)
+		args.vertices.at[first_vertex + v] = keptVertex(itemVertex(args.inputs, item, v));
+	if (EXPANDS_TRIANGLES)
+	{
+		placeTriangles(item);
 		for (uint t = gl_LocalInvocationIndex; t < item.triangle_count; t += gl_WorkGroupSize.x)
 		{
 			MicroTriangle triangle = itemTriangle(args.inputs, item, t);
-			writeTriangle(first_triangle + t, item.first_vertex, triangle.vertices, triangle.payload);
+			writeTriangle(first_triangle + t, first_vertex, triangle.vertices, triangle.payload);
 		}
 	}
 	barrier();

@@ -57,9 +57,11 @@ struct InstanceRecord
 	float inverse_scale_squared;  // 1 / (world units per mesh unit)^2, for mip levels
 	uint mesh;
 	uint mirrored;   // 1: negative determinant, triangles turn over
-	uint unused[2];  // to a multiple of 16 bytes, so that devices read four words at once
+	// What its clusters' ranges of vertices and triangles are moved by where each has a place of its own in a frame's buffers (modulo 2^32).
+	uint vertex_place;
+	uint triangle_place;
 };
-SHARED_LAYOUT(InstanceRecord, 80, unused, 72)
+SHARED_LAYOUT(InstanceRecord, 80, triangle_place, 76)
 
 // Mesh to camera-relative, scaled: the translation is the difference of two-float sums, exact where it matters (near the eye).
 struct Placement

@@ -178,7 +178,7 @@ Result<bool> FrameResources::growDump()
 
 bool FrameResources::raysAreTooSmall()
 {
-	return rays_.exists() && rays_.isTooSmallFor(head(LIST_EXPANDED_TRIANGLES).wanted);
+	return rays_.exists() && rays_.isTooSmallFor(head(LIST_EXPANDED_TRIANGLES).wanted, counts().overflow == 0);
 }
 
 void FrameResources::writeHistory(const View& view, bool makes_pyramid)

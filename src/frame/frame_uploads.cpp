@@ -50,12 +50,44 @@ constexpr SceneArray kSceneArrays[] = {
 	{ "material_height_maps", bytesOf<&BuiltScene::material_height_maps> },
 };
 
+// Vertices and triangles of a mesh, whose clusters cover both without gaps in some order.
+struct MeshRanges
+{
+	uint32_t first_vertex = UINT32_MAX, vertex_end = 0, first_triangle = UINT32_MAX, triangle_end = 0;
+};
+
+std::vector<MeshRanges> meshRanges(const BuiltScene& scene)
+{
+	std::vector<MeshRanges> ranges(scene.meshes.size());
+	for (size_t mesh = 0; mesh < scene.meshes.size(); ++mesh)
+		for (const ClusterRecord& cluster : std::span(scene.clusters).subspan(scene.meshes[mesh].first_cluster, scene.meshes[mesh].cluster_count))
+		{
+			MeshRanges& range = ranges[mesh];
+			range.first_vertex = std::min(range.first_vertex, cluster.first_vertex);
+			range.vertex_end = std::max(range.vertex_end, cluster.first_vertex + clusterVertices(cluster));
+			range.first_triangle = std::min(range.first_triangle, cluster.first_triangle);
+			range.triangle_end = std::max(range.triangle_end, cluster.first_triangle + clusterTriangles(cluster));
+		}
+	return ranges;
+}
+
+// One instance's places behind the other's.
 std::vector<InstanceRecord> instanceRecords(const BuiltScene& scene)
 {
+	const std::vector<MeshRanges> ranges = meshRanges(scene);
 	std::vector<InstanceRecord> records;
 	records.reserve(scene.instances.size());
+	uint32_t vertices = 0, triangles = 0;
 	for (const Instance& instance : scene.instances)
-		records.push_back(instanceRecord(instance));
+	{
+		const MeshRanges& range = ranges[instance.mesh];
+		InstanceRecord record = instanceRecord(instance);
+		record.vertex_place = vertices - range.first_vertex;
+		record.triangle_place = triangles - range.first_triangle;
+		records.push_back(record);
+		vertices += range.vertex_end - range.first_vertex;
+		triangles += range.triangle_end - range.first_triangle;
+	}
 	return records;
 }
 

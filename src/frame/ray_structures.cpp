@@ -1,5 +1,7 @@
 #include "frame/ray_structures.h"
 
+#include "plan/conditions.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -38,9 +40,16 @@ Status RayStructures::makeGeometry(const PlanInput& input)
 	triangles.indices = inputs_.expanded_triangles;
 	triangles.triangle_count = reserved_;
 	triangles.opaque = !(input.scene.has_single_sided && input.scene.has_double_sided);
-	const uint32_t before = geometry_build_ ? geometry_build_->count() : 0;
-	geometry_build_.emplace(triangles, BuildFlags{});
-	if (geometry_ && before == reserved_)
+	const bool keeps_places = kKeepsPlaces.holds(input);
+	// An update takes the same counts and flags, and the same indices, which clusters that keep their places give.
+	const bool is_same = geometry_ && keeps_places == keeps_places_ && triangles.triangle_count == triangles_.triangle_count &&
+						 triangles.most_vertex == triangles_.most_vertex;
+	refits_ = is_same && keeps_places && can_refit_;
+	can_refit_ = false;
+	keeps_places_ = keeps_places;
+	triangles_ = triangles;
+	geometry_build_.emplace(triangles, BuildFlags{ false, keeps_places });
+	if (is_same)
 		return {};
 	geometry_ = {};
 	TRY_ASSIGN(geometry_,
@@ -63,8 +72,9 @@ Status RayStructures::makeScene(BindlessSet& bindless)
 // One for both builds, which a barrier parts.
 Status RayStructures::makeScratch()
 {
+	const StructureBuild::Sizes geometry = geometry_build_->sizes(device_), scene = scene_build_->sizes(device_);
 	const uint64_t bytes =
-		scratchBytes(device_, std::max(geometry_build_->sizes(device_).build_scratch_bytes, scene_build_->sizes(device_).build_scratch_bytes));
+		scratchBytes(device_, std::max({ geometry.build_scratch_bytes, geometry.update_scratch_bytes, scene.build_scratch_bytes }));
 	if (scratch_ && scratch_.bytes() >= bytes && scratch_.bytes() <= 2 * bytes)
 		return {};
 	scratch_ = {};
@@ -79,6 +89,7 @@ void RayStructures::drop()
 	geometry_ = {};
 	scene_ = {};
 	scratch_ = {};
+	can_refit_ = false;
 }
 
 void RayStructures::reserve(const PlanInput& input)
@@ -92,19 +103,21 @@ void RayStructures::reserve(const PlanInput& input)
 		reserved_ = static_cast<uint32_t>(std::min<uint64_t>(roundedUp(uint64_t(wanted) * 9 / 8), device_.limits.most_structure_triangles));
 }
 
-bool RayStructures::isTooSmallFor(uint32_t wanted)
+bool RayStructures::isTooSmallFor(uint32_t wanted, bool fits)
 {
 	most_wanted_ = std::max(most_wanted_, wanted);
 	peak_ = std::max(peak_, wanted);
 	if (wanted > reserved_)
 		return true;
-	peak_used_ = std::max(peak_used_, wanted);
+	can_refit_ = keeps_places_ && fits;
+	if (fits)
+		peak_used_ = std::max(peak_used_, wanted);
 	return false;
 }
 
 void RayStructures::recordGeometry(VkCommandBuffer commands) const
 {
-	geometry_build_->record(device_, commands, geometry_.handle(), scratchAddress(device_, scratch_), BuildMode::Build);
+	geometry_build_->record(device_, commands, geometry_.handle(), scratchAddress(device_, scratch_), refits_ ? BuildMode::Update : BuildMode::Build);
 }
 
 void RayStructures::recordScene(VkCommandBuffer commands) const
@@ -118,6 +131,7 @@ RayStats RayStructures::stats(uint32_t wanted) const
 		return {};
 	RayStats stats;
 	stats.traced = true;
+	stats.refitted = refits_;
 	stats.triangles = { "ray_geometry", wanted, geometry_build_->count(), peak_, peak_used_, geometry_.bytes() };
 	const auto bytes_for = [&](uint32_t count) {
 		return geometry_build_->sizes(device_, std::max(count, 1u)).structure_bytes;

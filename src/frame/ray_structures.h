@@ -34,8 +34,9 @@ public:
 
 	// Triangles that the frame's structure is built of; those that the frame does not have get no area.
 	uint32_t reserved() const { return reserved_; }
-	// A round of the frame had this many. True when they are more than reserved: the frame must be drawn again, prepared anew with room for all.
-	bool isTooSmallFor(uint32_t wanted);
+	// A round of the frame had this many, if its lists held them (`fits`). True when they are more than reserved: the frame must be drawn again,
+	// prepared anew with room for all.
+	bool isTooSmallFor(uint32_t wanted, bool fits);
 
 	uint64_t geometryAddress() const { return geometry_.address(); }
 	void recordGeometry(VkCommandBuffer commands) const;
@@ -58,6 +59,10 @@ private:
 	Buffer scratch_;
 	uint32_t reserved_ = 0, peak_ = 0, peak_used_ = 0;
 	uint32_t most_wanted_ = 0;  // of all rounds since the last preparation
+	TriangleInput triangles_;   // of the last preparation
+	bool keeps_places_ = false;
+	bool can_refit_ = false;  // the structure holds these very triangles, each in its place
+	bool refits_ = false;     // and is only moved to this frame's vertices
 };
 
 }  // namespace tessera

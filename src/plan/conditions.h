@@ -144,6 +144,13 @@ inline constexpr Condition kKeepsVertices = { [](const PlanInput& input) { retur
 											  "raster_micro evaluates its own vertices, and nothing else needs any" };
 inline constexpr Condition kExpands = { [](const PlanInput& input) { return usesIndexed(input) || kRays.holds(input); },
 										"nothing is drawn by indices, and no rays are traced" };
+// Every cluster of the scene is drawn as stored: then each has a place of its own in what is expanded, and what rays are traced through can be
+// refitted. (Mesh shaders find clusters at the places that they took when they were listed.)
+inline constexpr Condition kKeepsPlaces = { [](const PlanInput& input) {
+											   return kRays.holds(input) && !kTessellates.holds(input) && !culling(input).any() &&
+													  input.view.rounds == 1 && !usesMesh(input);
+										   },
+											"no rays are traced, something is tessellated, culled or drawn in rounds, or mesh shaders draw" };
 inline constexpr Condition kPrimitiveId = { [](const PlanInput& input) { return input.device.fragment_primitive_id; },
 											"the device lacks primitive ids in fragment shaders (geometryShader) or 32-bit indices" };
 inline constexpr Condition kColorTextures = { [](const PlanInput& input) { return input.scene.has_color_textures; },

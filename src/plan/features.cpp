@@ -40,6 +40,7 @@ std::vector<Feature> shaderFeatures(const PlanInput& input)
 		conditional("HAS_HEIGHT_FOOTPRINTS", 40, kHeightFootprints),
 		conditional("HAS_OCCLUSION", 23, kMayHide),
 		conditional("HAS_RAYS", 24, kRays),
+		conditional("KEEPS_PLACES", 27, kKeepsPlaces),
 		conditional("HAS_SHADOWS", 25, kShadows),
 		conditional("HAS_AMBIENT_OCCLUSION", 26, kAmbientOcclusion),
 		feature("DIRECTIONS_ARE_NORMALS", 22, input.scene.directions_are_normals, "some direction differs from the normal"),

@@ -119,7 +119,8 @@ std::vector<HostLayout> hostLayouts()
 {
 	return {
 		viewLayout(),
-		LAYOUT(9, InstanceRecord, row0, row1, row2, translation_high, translation_low, inverse_scale_squared, mesh, mirrored, unused),
+		LAYOUT(10, InstanceRecord, row0, row1, row2, translation_high, translation_low, inverse_scale_squared, mesh, mirrored, vertex_place,
+			   triangle_place),
 		LAYOUT(4, ClusterRecord, first_vertex, first_triangle, counts, material),
 		LAYOUT(2, MeshRecord, first_cluster, cluster_count),
 		LAYOUT(2, ClusterRef, instance, cluster),

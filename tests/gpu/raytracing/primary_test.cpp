@@ -148,6 +148,39 @@ TEST_F(rays, aReservationThatIsTooSmallIsMadeLargerInTheSameFrameAndNothingIsMis
 	EXPECT_LT(listOf(drawnBy(*renderer, far).result, "ray_geometry").capacity, large.capacity);
 }
 
+// Where every cluster is drawn as stored, what rays are traced through is refitted under a moving camera, and built again once something else than
+// places changes. A refitted frame is the picture of a built one.
+TEST_F(rays, refitsWhileNothingIsTessellatedAndBuildsWhenTheTopologyChanges)
+{
+	const auto scene = gpuScene("bricks");
+	const RenderOptions options = rayOptions(0, Raster::Rt);
+	const auto renderer = rendererOf(*scene, options);
+	ASSERT_TRUE(renderer);
+	drawnBy(*renderer, scene->camera);
+	for (const double nearness : { 0.8, 0.5, 2.0 })
+	{
+		const Drawn moved = drawnBy(*renderer, closeTo(*scene, nearness)), built = drawnBy(*rendererOf(*scene, options), closeTo(*scene, nearness));
+		EXPECT_TRUE(moved.result.rays.refitted) << nearness;
+		EXPECT_FALSE(built.result.rays.refitted) << nearness;
+		EXPECT_LE(differingPixels(moved.picture, built.picture), 2u) << nearness << ": more than ties";
+	}
+	RenderOptions other = options;
+	other.rate = 6;
+	ASSERT_TRUE(renderer->setOptions(other));
+	EXPECT_FALSE(drawnBy(*renderer, scene->camera).result.rays.refitted) << "tessellated";
+	EXPECT_FALSE(drawnBy(*renderer, scene->camera).result.rays.refitted) << "parts have no places of their own";
+	ASSERT_TRUE(renderer->setOptions(options));
+	EXPECT_FALSE(drawnBy(*renderer, scene->camera).result.rays.refitted) << "the first without tessellation";
+	EXPECT_TRUE(drawnBy(*renderer, scene->camera).result.rays.refitted);
+	other = options;
+	other.displacement_scale = 0.5f;
+	ASSERT_TRUE(renderer->setOptions(other));
+	EXPECT_TRUE(drawnBy(*renderer, scene->camera).result.rays.refitted) << "only places changed";
+	other.cull.frustum = true;
+	ASSERT_TRUE(renderer->setOptions(other));
+	EXPECT_FALSE(drawnBy(*renderer, scene->camera).result.rays.refitted) << "culled clusters are not there";
+}
+
 TEST_F(rays, repeatedFramesAreTheSameBits)
 {
 	const auto scene = gpuScene("bricks");
