@@ -95,6 +95,12 @@ void RayStructures::drop()
 void RayStructures::reserve(const PlanInput& input)
 {
 	const uint32_t wanted = std::exchange(most_wanted_, 0);
+	// Then the frame has every triangle of the scene.
+	if (kKeepsPlaces.holds(input) && wanted <= input.scene.instanced_triangles)
+	{
+		reserved_ = static_cast<uint32_t>(std::clamp<uint64_t>(input.scene.instanced_triangles, 1, device_.limits.most_structure_triangles));
+		return;
+	}
 	if (reserved_ == 0)
 		reserved_ = roundedUp(std::min<uint64_t>(input.scene.instanced_triangles, kFirstTriangles));
 	// Nearly full: a moving camera seldom draws a frame twice. Half empty: what is not there costs a little, too.
