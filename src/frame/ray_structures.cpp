@@ -96,7 +96,7 @@ void RayStructures::reserve(const PlanInput& input)
 {
 	const uint32_t wanted = std::exchange(most_wanted_, 0);
 	// Then the frame has every triangle of the scene.
-	if (kKeepsPlaces.holds(input) && wanted <= input.scene.instanced_triangles)
+	if (kKeepsPlaces.holds(input))
 	{
 		reserved_ = static_cast<uint32_t>(std::clamp<uint64_t>(input.scene.instanced_triangles, 1, device_.limits.most_structure_triangles));
 		return;
