@@ -25,7 +25,8 @@ struct Case
 // In an order that loads each scene once per stretch of rows. Errors: Usage (--scene names no scene).
 Result<std::vector<Case>> tableCases(const Settings& settings);
 
-// Sweeps of settings.scaling: rates until 1e8 micro-triangles, the same with rays until 1e7, instances up to 1e6, pictures up to 7680x4320; less with --quick.
+// Sweeps of settings.scaling: rates until 1e8 micro-triangles, the same with rays until 1e7, instances up to 1e6, pictures up to 7680x4320; less with
+// --quick.
 std::vector<Case> scalingCases(const Settings& settings);
 
 }  // namespace tessera::bench

@@ -56,7 +56,7 @@ struct InstanceRecord
 	vec3 translation_low;
 	float inverse_scale_squared;  // 1 / (world units per mesh unit)^2, for mip levels
 	uint mesh;
-	uint mirrored;   // 1: negative determinant, triangles turn over
+	uint mirrored;  // 1: negative determinant, triangles turn over
 	// What its clusters' ranges of vertices and triangles are moved by where each has a place of its own in a frame's buffers (modulo 2^32).
 	uint vertex_place;
 	uint triangle_place;

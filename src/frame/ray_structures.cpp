@@ -51,6 +51,7 @@ Status RayStructures::makeGeometry(const PlanInput& input)
 	geometry_build_.emplace(triangles, BuildFlags{ false, keeps_places });
 	if (is_same)
 		return {};
+	peak_ = peak_used_ = 0;  // since it was made
 	geometry_ = {};
 	TRY_ASSIGN(geometry_,
 			   AccelerationStructure::create(device_, geometry_build_->type(), geometry_build_->sizes(device_).structure_bytes, "ray_geometry"));
