@@ -1,8 +1,9 @@
 // What becomes of a triangle: a part triangle when its factors fit the table, else a split triangle.
 #ifndef TESSERA_LIB_CLASSIFY
 #define TESSERA_LIB_CLASSIFY
+#include "lib/frame_data.glsl"
 #include "shared/bounds.h"
-#include "shared/edge_factor.h"
+#include "shared/edge_detail.h"
 #include "shared/pattern.h"
 
 // A corner of a triangle being classified: its domain point, and its undisplaced position relative to the eye.
@@ -16,11 +17,11 @@ struct ClassifiedCorner
 #define DECISION_CULLED 0x2000u  // nothing of it can be in view: it becomes nothing
 
 // Factors (or pieces per edge, with DECISION_SPLIT) of edges p-q, q-r, r-p: 4 bits each.
-uint decideTriangle(ClassifiedCorner p, ClassifiedCorner q, ClassifiedCorner r, View view, FactorRule rule)
+uint decideTriangle(EdgeBase base, ClassifiedCorner p, ClassifiedCorner q, ClassifiedCorner r, View view, FactorRule rule)
 {
-	EdgeView edge_a = viewEdge(p.relative, q.relative, domainLength(p.domain, q.domain), view);
-	EdgeView edge_b = viewEdge(q.relative, r.relative, domainLength(q.domain, r.domain), view);
-	EdgeView edge_c = viewEdge(r.relative, p.relative, domainLength(r.domain, p.domain), view);
+	EdgeView edge_a = edgeByMetric(frame_surface, base, p.domain, q.domain, p.relative, q.relative, view);
+	EdgeView edge_b = edgeByMetric(frame_surface, base, q.domain, r.domain, q.relative, r.relative, view);
+	EdgeView edge_c = edgeByMetric(frame_surface, base, r.domain, p.domain, r.relative, p.relative, view);
 	uint a = edgeFactor(edge_a, rule);
 	uint b = edgeFactor(edge_b, rule);
 	uint c = edgeFactor(edge_c, rule);

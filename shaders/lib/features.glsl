@@ -26,6 +26,8 @@ layout(constant_id = 21) const bool HAS_MANY_HEIGHT_MAPS = true;
 layout(constant_id = 22) const bool DIRECTIONS_ARE_NORMALS = false;
 layout(constant_id = 23) const bool HAS_OCCLUSION = true;
 layout(constant_id = 40) const bool HAS_HEIGHT_FOOTPRINTS = false;
+layout(constant_id = 30) const bool HAS_DETAIL = true;
+layout(constant_id = 31) const bool HAS_DISPLACED_EDGES = true;
 layout(constant_id = 14) const bool READS_BUFFER = true;
 layout(constant_id = 24) const bool HAS_RAYS = true;
 layout(constant_id = 27) const bool KEEPS_PLACES = false;

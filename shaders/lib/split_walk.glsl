@@ -88,7 +88,11 @@ bool isUnseen(Child child)
 	return isOutOfView(child.corners[0], child.corners[1], child.corners[2], reach, cull_frustum, view);
 }
 
-uint decisionOf(Child child) { return decideTriangle(child.corners[0], child.corners[1], child.corners[2], view, rule); }
+uint decisionOf(Child child)
+{
+	EdgeBase base = EdgeBase(cluster.first_triangle + child.triangle, placement.inverse_scale_squared);
+	return decideTriangle(base, child.corners[0], child.corners[1], child.corners[2], view, rule);
+}
 
 Child baseChild(uint t)
 {

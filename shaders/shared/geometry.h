@@ -108,6 +108,14 @@ struct SeamCorner
 };
 SHARED_LAYOUT(SeamCorner, 16, height_map, 12)
 
+// Of the metric `detail`, per triangle: how far its displaced surface lies from flat pieces of it (shared/edge_detail.h).
+struct TriangleDetail
+{
+	uint curves[8];  // two words each: the largest of all triangles that meet at edge 0, 1, 2; the triangle's own
+	int bias;        // what a curve's numbers begin at; the same for the whole scene
+};
+SHARED_LAYOUT(TriangleDetail, 36, bias, 32)
+
 // What the displaced surface is evaluated from. Absent arrays (address 0) are not needed by the scene.
 struct Surface
 {
@@ -122,8 +130,10 @@ struct Surface
 	GPU_PTR(SeamCorner) seam_corners;
 	GPU_PTR(uint) material_height_maps;  // per material: its HeightMap or NO_INDEX
 	GPU_PTR(HeightMap) height_maps;
+	GPU_PTR(TriangleDetail) triangle_details;  // per triangle; metric `detail`
+	GPU_PTR(vec3) edge_roughness;              // per triangle, its three edges; metric `displaced`
 };
-SHARED_LAYOUT(Surface, 88, height_maps, 80)
+SHARED_LAYOUT(Surface, 104, edge_roughness, 96)
 
 SHARED_END
 

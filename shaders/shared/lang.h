@@ -19,6 +19,8 @@
 #define precise              // the C++ side is compiled with -ffp-contract=off
 #define GPU_PTR(T) uint64_t  // device address; 0 = absent. In the CPU reference: the address of host memory
 #define AT(T, address, index) (reinterpret_cast<const T*>(address)[index])
+// What a specialisation constant says in shaders, the address says here.
+#define IS_GIVEN(address) ((address) != 0)
 // A field of a height map. Shaders read the first ones from a uniform buffer (lib/frame_data.glsl).
 #define HEIGHT_MAP(surface, index, field) (AT(HeightMap, (surface).height_maps, index).field)
 #define SHARED_LAYOUT(T, size, last, offset) \
@@ -77,6 +79,8 @@ inline constexpr bool HAS_WRAP_REPEAT = true;
 inline constexpr bool HAS_WRAP_CLAMP = true;
 inline constexpr bool HAS_WRAP_MIRROR = true;
 inline constexpr bool HAS_HEIGHT_FOOTPRINTS = false;
+inline constexpr bool HAS_DETAIL = true;
+inline constexpr bool HAS_DISPLACED_EDGES = true;
 }  // namespace tessera
 
 #else
@@ -96,6 +100,7 @@ spirv_execution_mode(capabilities = [4466], 4461, 32);  // SignedZeroInfNanPrese
 #define SHARED_FN
 #define GPU_PTR(T) T##Ref
 #define AT(T, address, index) ((address).at[index])
+#define IS_GIVEN(address) true
 #define HEIGHT_MAP(surface, index, field) (HAS_MANY_HEIGHT_MAPS ? (surface).height_maps.at[index].field : frame_height_maps[index].field)
 // Every array begins on a 16-byte boundary: the host allocates them so.
 #define SHARED_LAYOUT(T, size, last, offset)                                    \

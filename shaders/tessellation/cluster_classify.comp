@@ -43,13 +43,14 @@ ClassifiedCorner cornerOf(uint triangle, uint corner)
 	return ClassifiedCorner(domainCorner(corner), relative[triangleVertex(triangle, corner)]);
 }
 
-void decideTriangles(ClusterRecord cluster, PlacedReach reach, View view)
+void decideTriangles(ClusterRecord cluster, Placement placement, PlacedReach reach, View view)
 {
 	for (uint t = gl_LocalInvocationIndex; t < clusterTriangles(cluster); t += gl_WorkGroupSize.x)
 	{
 		uint triangle = args.triangles.at[cluster.first_triangle + t];
 		ClassifiedCorner p = cornerOf(triangle, 0u), q = cornerOf(triangle, 1u), r = cornerOf(triangle, 2u);
-		uint decision = decideTriangle(p, q, r, view, args.rule);
+		EdgeBase base = EdgeBase(cluster.first_triangle + t, placement.inverse_scale_squared);
+		uint decision = decideTriangle(base, p, q, r, view, args.rule);
 		if (decision != ALL_ONE)
 			tessellated = 1u;
 		if (isOutOfView(p, q, r, reach, args.cull_frustum, view))
@@ -128,7 +129,7 @@ void main()
 			reach = placedReach(args.cluster_bounds.at[ref.cluster], placement, view);
 		placeVertices(cluster, placement);
 		barrier();
-		decideTriangles(cluster, reach, view);
+		decideTriangles(cluster, placement, reach, view);
 		barrier();
 		if (gl_LocalInvocationIndex == 0u)
 			reserve(cluster, index);

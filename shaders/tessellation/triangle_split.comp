@@ -26,6 +26,7 @@ const uint SPLITS_PER_GROUP = 24u;  // with five children each, as most have, on
 shared DomainTriangle split_records[SPLITS_PER_GROUP];
 shared PatternRange split_patterns[SPLITS_PER_GROUP];
 shared uint split_flags[SPLITS_PER_GROUP];
+shared uint split_triangles[SPLITS_PER_GROUP];  // global index of the base triangle
 shared vec3 split_positions[3u * SPLITS_PER_GROUP];
 shared Placement split_placements[SPLITS_PER_GROUP];
 shared PlacedReach split_reaches[SPLITS_PER_GROUP];
@@ -60,6 +61,7 @@ void loadSplit(uint lane, uint index)
 	split_records[lane] = record;
 	split_patterns[lane] = pattern;
 	split_flags[lane] = triangleEdgeFlags(triangle);
+	split_triangles[lane] = cluster.first_triangle + piece.triangle;
 	split_placements[lane] = placement;
 	if (HAS_CULLING)
 		split_reaches[lane] = placedReach(args.cluster_bounds.at[ref.cluster], placement, frame_view);
@@ -113,8 +115,9 @@ Child decideChild(uint index)
 	PlacedReach reach;
 	if (HAS_CULLING)
 		reach = split_reaches[child.owner];
+	EdgeBase base = EdgeBase(split_triangles[child.owner], placement.inverse_scale_squared);
 	bool culled = isOutOfView(p, q, r, reach, args.cull_frustum, view);
-	child.decision = culled ? DECISION_CULLED : decideTriangle(p, q, r, view, args.rule);
+	child.decision = culled ? DECISION_CULLED : decideTriangle(base, p, q, r, view, args.rule);
 	return child;
 }
 

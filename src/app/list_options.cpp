@@ -56,13 +56,37 @@ std::vector<std::string> printRates(const AppOptions& options)
 	return printList(options.rates, [](double rate) { return fmt::format("{}", rate); });
 }
 
+template <typename Enum>
+Status parseNames(std::vector<Enum>& values, std::string_view text, std::span<const std::string_view> names)
+{
+	const auto read = [&](std::string_view part) -> std::optional<Enum> {
+		const auto found = std::find(names.begin(), names.end(), part);
+		return found == names.end() ? std::nullopt : std::optional(static_cast<Enum>(found - names.begin()));
+	};
+	return parseList(values, text, fmt::format("some of {}", joinNames(names)), read);
+}
+
 Status parseRasters(AppOptions& options, std::string_view text)
 {
-	const auto read = [](std::string_view part) -> std::optional<Raster> {
-		const auto found = std::find(std::begin(kRasterNames), std::end(kRasterNames), part);
-		return found == std::end(kRasterNames) ? std::nullopt : std::optional(static_cast<Raster>(found - std::begin(kRasterNames)));
-	};
-	return parseList(options.rasters, text, fmt::format("some of {}", joinNames(kRasterNames)), read);
+	return parseNames(options.rasters, text, kRasterNames);
+}
+
+Status parseMetrics(AppOptions& options, std::string_view text)
+{
+	return parseNames(options.metrics, text, kMetricNames);
+}
+
+std::vector<std::string> printMetrics(const AppOptions& options)
+{
+	return printList(options.metrics, [](Metric metric) { return std::string(metricName(metric)); });
+}
+
+ordered_json metricsJson(const AppOptions& options)
+{
+	ordered_json json = ordered_json::array();
+	for (const Metric metric : options.metrics)
+		json.push_back(metricName(metric));
+	return json;
 }
 
 std::vector<std::string> printRasters(const AppOptions& options)
@@ -97,6 +121,7 @@ constinit const Custom kRatesOption = { parseRates, printRates, [](const AppOpti
 										   return ordered_json(options.rates);
 									   } };
 constinit const Custom kRastersOption = { parseRasters, printRasters, rastersJson };
+constinit const Custom kMetricsOption = { parseMetrics, printMetrics, metricsJson };
 constinit const Custom kSizesOption = { parseSizes, printSizes, [](const AppOptions& options) {
 										   return ordered_json(options.sizes);
 									   } };
@@ -109,6 +134,11 @@ std::vector<double> ratesOf(const AppOptions& options)
 std::vector<Raster> rastersOf(const AppOptions& options)
 {
 	return options.rasters.empty() ? std::vector{ options.raster } : options.rasters;
+}
+
+std::vector<Metric> metricsOf(const AppOptions& options)
+{
+	return options.metrics.empty() ? std::vector{ options.metric } : options.metrics;
 }
 
 std::vector<std::array<uint32_t, 2>> sizesOf(const AppOptions& options)

@@ -20,7 +20,6 @@ constexpr uint32_t kMostCopies = 4096;   // of the scene, per direction
 constexpr double kMostLength = 1e30;     // world units
 constexpr double kMostShown = 1e9;       // ranges that end higher are left out of --help
 
-constexpr std::string_view kMetricNames[] = { "edge" };
 constexpr std::string_view kOffOnNames[] = { "off", "on" };
 constexpr std::string_view kShadingNames[] = { "smooth", "flat" };
 constexpr std::string_view kViewNames[] = { "shaded", "clusters", "parts",     "triangles", "factors",    "depth", "normals", "wireframe",
@@ -187,7 +186,11 @@ const std::array kTable = {
 	OptionDesc{ "grid-v", "X,Y,Z", "step from row to row; default: a little more than the scene's depth along -z", &AppOptions::grid_v, 0, 0,
 				Rebuild::Scene },
 	OptionDesc{ "rate", "PIXELS", "tessellation rate: wanted segment length; 0 = do not tessellate", &AppOptions::rate, 0, 1e6, Rebuild::Pipelines },
-	OptionDesc{ "metric", "NAME", "edge factor: edge = length / distance", choiceOf<&AppOptions::metric>(kMetricNames), 0, 0, Rebuild::Pipelines },
+	OptionDesc{
+		"metric", "NAME",
+		"what decides the segments of an edge: its length over its distance; the displaced length as it is seen; or length over distance, and "
+		"fewer where the displaced surface is straight",
+		choiceOf<&AppOptions::metric>(kMetricNames), 0, 0, Rebuild::Scene },
 	OptionDesc{ "raster", "NAME", "who finds visibility; auto takes what measured fastest for the device and the rate",
 				choiceOf<&AppOptions::raster>(kRasterNames), 0, 0, Rebuild::Buffers },
 	OptionDesc{ "cull", "on|off|LIST", "kinds of culling: frustum,backface,occlusion",
@@ -231,6 +234,7 @@ const std::array kTable = {
 	OptionDesc{ "warmup", "N", "frames to draw before those", &AppOptions::warmup, 0, 1e6 },
 	OptionDesc{ "rates", "LIST", "rates that report tries (default: 16,8,4,2,1,0.5) and verify checks (default: that of --rate)", kRatesOption },
 	OptionDesc{ "rasters", "LIST", "report: raster paths to try; default: that of --raster", kRastersOption },
+	OptionDesc{ "metrics", "LIST", "report: metrics to try; default: that of --metric", kMetricsOption, 0, 0, Rebuild::Scene },
 	OptionDesc{ "sizes", "LIST", "report: pictures to try; default: that of --size", kSizesOption },
 	OptionDesc{ "reference-rate", "PIXELS", "report: rate of the picture that the others are compared with; default: half the finest of --rates",
 				&AppOptions::reference_rate, 1e-3, 1e6 },

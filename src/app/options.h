@@ -17,12 +17,6 @@
 namespace tessera
 {
 
-// How an edge's factor is found (DESIGN.md, section 5).
-enum class Metric : uint8_t
-{
-	Edge,
-};
-
 // What the user asked for: RenderOptions is what a frame needs to know, the rest concerns scene, camera, device and output.
 struct AppOptions : RenderOptions
 {
@@ -33,13 +27,13 @@ struct AppOptions : RenderOptions
 	std::optional<uint32_t> camera;     // index into the scene's cameras
 	uint32_t grid_columns = 1, grid_rows = 1;
 	std::optional<dvec3> grid_u, grid_v;  // world units; absent: a little more than the scene's size
-	Metric metric = Metric::Edge;
 	std::vector<std::string> displacements;
 	std::string camera_path;  // file; empty: one camera
 	uint32_t frames = 1, warmup = 0;
 	// What a report tries (verify shares the rates), and what it is to recommend.
 	std::vector<double> rates;                   // empty: ratesOf (list_options.h) has the default
 	std::vector<Raster> rasters;                 // empty: `raster` alone
+	std::vector<Metric> metrics;                 // empty: `metric` alone
 	std::vector<std::array<uint32_t, 2>> sizes;  // empty: width_px x height_px alone
 	std::optional<double> reference_rate;        // of the picture that the others are compared with
 	std::optional<double> max_error_px, max_ms;

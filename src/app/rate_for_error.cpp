@@ -22,7 +22,7 @@ class RateSearch
 {
 public:
 	RateSearch(const BuiltScene& scene, const TessellationTable& table, const Camera& camera, const AppOptions& options, double target_px)
-		: scene_(scene), host_(scene, table), camera_(camera), options_(options), target_px_(target_px), progress_(!options.quiet)
+		: scene_(scene), host_(scene, table, options.metric), camera_(camera), options_(options), target_px_(target_px), progress_(!options.quiet)
 	{}
 
 	Result<FoundRate> run()

@@ -16,8 +16,8 @@ namespace tessera
 namespace
 {
 
-constexpr std::string_view kFreeOptions[] = { "size",         "rate",   "raster", "rates", "rasters", "sizes",
-											  "max_error_px", "max_ms", "resume", "quiet", "strict",  "view" };
+constexpr std::string_view kFreeOptions[] = { "size",   "rate",   "raster", "rates",  "rasters", "sizes",  "max_error_px",
+											  "max_ms", "resume", "quiet",  "strict", "view",    "metric", "metrics" };
 
 Status checkOptions(const AppOptions& options)
 {
@@ -100,6 +100,11 @@ std::vector<std::pair<std::string, std::string>> sceneFacts(const BuiltScene& sc
 		{ "height maps", fmt::format("{}", scene.height_maps.size()) },
 		{ "diagonal of the bounds", fmt::format("{:.6g}", 2 * boundingRadius(scene)) },
 	};
+	if (!options.camera_path.empty())
+		facts.emplace_back(
+			"camera path",
+			options.camera_path +
+				": errors are the largest, mean or root mean square over its keys, times those of frames at all of them; pictures are of the first");
 	for (const auto& size : sizesOf(options))
 		if (const Result<Camera> camera = chooseCamera(scene, optionsFor(options, size)))
 			facts.emplace_back(fmt::format("camera, {}x{}", size[0], size[1]),

@@ -41,6 +41,25 @@ report::RunCounts countsOf(const FrameCountsRead& counts)
 			 counts.full_clusters,   counts.visible_clusters, counts.covered_pixels };
 }
 
+using PassTimes = std::vector<std::pair<std::string, std::vector<double>>>;  // by pass, in the frame's order
+
+constexpr uint64_t report::RunCounts::*kCounts[] = { &report::RunCounts::micro_triangles,  &report::RunCounts::part_triangles,
+													 &report::RunCounts::split_triangles,  &report::RunCounts::full_clusters,
+													 &report::RunCounts::visible_clusters, &report::RunCounts::covered_pixels };
+
+void addCounts(report::RunCounts& sum, const report::RunCounts& counts)
+{
+	for (const auto count : kCounts)
+		sum.*count += counts.*count;
+}
+
+report::RunCounts meanCounts(report::RunCounts sum, uint64_t cameras)
+{
+	for (const auto count : kCounts)
+		sum.*count /= cameras;
+	return sum;
+}
+
 report::RunBytes bytesOf(const MemoryStats& memory)
 {
 	return { memory.lists, memory.geometry + memory.rays, memory.textures, memory.images };
@@ -65,34 +84,46 @@ Camera emptyView(const Camera& camera, const BuiltScene& scene)
 class Sweep
 {
 public:
-	Sweep(const SweepSubject& subject, report::RunLog& log)
-		: subject_(subject), log_(log), host_(subject.scene, subject.table), progress_(!subject.options.quiet)
-	{}
+	Sweep(const SweepSubject& subject, report::RunLog& log) : subject_(subject), log_(log), progress_(!subject.options.quiet) {}
 
 	Result<SweepResult> run()
 	{
 		const auto sizes = sizesOf(subject_.options);
-		const size_t count = sizes.size() * ratesOf(subject_.options).size() * rastersOf(subject_.options).size();
+		const size_t count =
+			sizes.size() * metricsOf(subject_.options).size() * ratesOf(subject_.options).size() * rastersOf(subject_.options).size();
 		for (const auto& size : sizes)
 		{
-			const AppOptions options = optionsFor(subject_.options, size);
-			TRY_ASSIGN(camera_, chooseCamera(subject_.scene, options));
+			AppOptions options = optionsFor(subject_.options, size);
+			TRY_ASSIGN(cameras_, chooseCameras(subject_.scene, options));
 			reference_picture_ = {};
-			for (const double rate : ratesOf(options))
-				for (const Raster raster : rastersOf(options))
-				{
-					++number_;
-					TRY(runOne(options, rate, raster, count));
-				}
+			for (const Metric metric : metricsOf(subject_.options))
+			{
+				options.metric = metric;
+				TRY(runMetric(options, count));
+			}
 		}
 		return std::move(result_);
 	}
 
 private:
+	Status runMetric(const AppOptions& options, size_t count)
+	{
+		// It goes by the metric. The surface that it describes does not, but what holds the one holds the other.
+		surface_.reset();
+		host_.emplace(subject_.scene, subject_.table, options.metric);
+		for (const double rate : ratesOf(options))
+			for (const Raster raster : rastersOf(options))
+			{
+				++number_;
+				TRY(runOne(options, rate, raster, count));
+			}
+		return {};
+	}
+
 	Status runOne(const AppOptions& sized, double rate, Raster raster, size_t count)
 	{
 		const std::string raster_name(rasterName(raster));
-		const Setting setting = { rate, raster_name, "edge", sized.width_px, sized.height_px };
+		const Setting setting = { rate, raster_name, std::string(metricName(sized.metric)), sized.width_px, sized.height_px };
 		if (const Run* done = log_.find(setting))
 		{
 			logInfo("[{}/{}] {}: is there already", number_, count, setting.label());
@@ -160,10 +191,11 @@ private:
 		AppOptions options = sized;
 		options.rate = static_cast<float>(rateOfReference(sized));
 		options.raster = Raster::Auto;
+		options.metric = Metric::Edge;
 		TRY_ASSIGN(const std::unique_ptr<Renderer> renderer, rendererFor(options));
-		TRY(renderer->renderFrame(emptyView(camera_, subject_.scene)));
+		TRY(renderer->renderFrame(emptyView(cameras_[0], subject_.scene)));
 		TRY_ASSIGN(sky_, renderer->readPicture());
-		TRY_ASSIGN(const FrameResult frame, renderer->renderFrame(camera_));
+		TRY_ASSIGN(const FrameResult frame, renderer->renderFrame(cameras_[0]));
 		TRY_ASSIGN(reference_picture_, pictureOf(*renderer, options));
 		const std::string name = fmt::format("pictures/reference{}_{}x{}.png", options.rate, options.width_px, options.height_px);
 		reference_ = { frame.rate_wanted, frame.rate_granted, frame.counts.micro_triangles, name };
@@ -185,50 +217,78 @@ private:
 			TRY(makeReference(options));
 		run.reference = reference_;
 		TRY_ASSIGN(const std::unique_ptr<Renderer> renderer, rendererFor(options));
-		TRY(drawFrames(*renderer, options, run));
+		std::vector<DrawnView> views;
+		TRY(drawPath(*renderer, options, run, views));
 		TRY_ASSIGN(const report::Picture picture, pictureOf(*renderer, options));
 		run.bytes = bytesOf(renderer->memory());
 		run.image = report::compareImages(picture, reference_picture_);
-		const std::string name = fmt::format("rate{}_{}_{}x{}.png", run.setting.rate, run.setting.raster, options.width_px, options.height_px);
+		const std::string name =
+			fmt::format("rate{}_{}_{}_{}x{}.png", run.setting.rate, run.setting.raster, run.setting.metric, options.width_px, options.height_px);
 		run.picture = "pictures/" + name;
 		TRY(writePng(subject_.folder / run.picture, options.width_px, options.height_px, picture.rgba, 4));
-		return measureSurface(renderer->view(), options, run);
+		return measureSurface(views, options, run);
 	}
 
-	// Warms up, then draws until there are enough frames or the run's time is over.
-	Status drawFrames(Renderer& renderer, const AppOptions& options, Run& run)
+	// What a camera of the path was drawn at.
+	struct DrawnView
+	{
+		View view;
+		double rate_granted;
+	};
+
+	// The frames are shared out among the cameras; the first comes last, its picture is the one that is kept.
+	Status drawPath(Renderer& renderer, const AppOptions& options, Run& run, std::vector<DrawnView>& views)
+	{
+		const size_t count = cameras_.size();
+		run.cameras = static_cast<uint32_t>(count);
+		std::vector<double> frame_ms;
+		PassTimes pass_ms;
+		report::RunCounts sum;
+		views.resize(count);
+		for (size_t i = count; i-- > 0;)
+		{
+			TRY_ASSIGN(const FrameResult last, drawFrames(renderer, options, cameras_[i], run, frame_ms, pass_ms));
+			views[i] = { renderer.view(), last.rate_granted };
+			addCounts(sum, countsOf(last.counts));
+			run.rate_granted = std::max(run.rate_granted, last.rate_granted);
+			run.every_factor_one = run.every_factor_one || last.every_factor_one;
+			run.rounds = std::max(run.rounds, last.rounds);
+		}
+		run.counts = meanCounts(sum, count);
+		run.gpu_ms = report::timeFigures(std::move(frame_ms));
+		for (auto& [name, ms] : pass_ms)
+			run.passes.push_back({ name, report::timeFigures(std::move(ms)) });
+		return {};
+	}
+
+	// Warms up, then draws until there are enough frames or the camera's share of the run's time is over; gives the last.
+	Result<FrameResult> drawFrames(Renderer& renderer, const AppOptions& options, const Camera& camera, Run& run, std::vector<double>& frame_ms,
+								   PassTimes& pass_ms)
 	{
 		using Clock = std::chrono::steady_clock;
 		const bool asked = options.frames > 1 || options.warmup > 0;
-		const uint32_t frames = asked ? options.frames : kFrames, warmup = asked ? options.warmup : kWarmup;
+		const auto cameras = static_cast<uint32_t>(cameras_.size());
+		const uint32_t frames = ((asked ? options.frames : kFrames) + cameras - 1) / cameras;
+		const uint32_t warmup = ((asked ? options.warmup : kWarmup) + cameras - 1) / cameras;
 		const auto start = Clock::now();
 		const auto share = [&] {
-			return std::chrono::duration<double>(Clock::now() - start).count() / kRunSeconds;
+			return std::chrono::duration<double>(Clock::now() - start).count() * cameras / kRunSeconds;
 		};
 		progress_.begin(fmt::format("drawing {}", run.setting.label()), warmup + frames);
-		for (; run.warmup < warmup && (run.warmup == 0 || share() < 0.25); ++run.warmup, progress_.advance())
-			TRY(renderer.renderFrame(camera_));
-		std::vector<double> frame_ms;
-		std::vector<std::pair<std::string, std::vector<double>>> pass_ms;
+		for (uint32_t i = 0; i < warmup && (i == 0 || share() < 0.25); ++i, ++run.warmup, progress_.advance())
+			TRY(renderer.renderFrame(camera));
 		FrameResult last;
-		for (; run.frames < frames && (run.frames < std::min(frames, kLeastFrames) || share() < 1); ++run.frames, progress_.advance())
+		for (uint32_t i = 0; i < frames && (i < std::min(frames, kLeastFrames) || share() < 1); ++i, ++run.frames, progress_.advance())
 		{
-			TRY_ASSIGN(last, renderer.renderFrame(camera_));
+			TRY_ASSIGN(last, renderer.renderFrame(camera));
 			frame_ms.push_back(last.gpu_ms);
 			addPasses(last.passes, pass_ms);
 		}
 		progress_.end();
-		run.gpu_ms = report::timeFigures(std::move(frame_ms));
-		for (auto& [name, ms] : pass_ms)
-			run.passes.push_back({ name, report::timeFigures(std::move(ms)) });
-		run.counts = countsOf(last.counts);
-		run.rate_granted = last.rate_granted;
-		run.every_factor_one = last.every_factor_one;
-		run.rounds = last.rounds;
-		return {};
+		return last;
 	}
 
-	static void addPasses(const std::vector<PassTime>& passes, std::vector<std::pair<std::string, std::vector<double>>>& pass_ms)
+	static void addPasses(const std::vector<PassTime>& passes, PassTimes& pass_ms)
 	{
 		for (const PassTime& pass : passes)
 		{
@@ -240,11 +300,12 @@ private:
 	}
 
 	// Measured once per view and granted rate: raster paths draw the same micro-triangles.
-	Status measureSurface(const View& view, const AppOptions& options, Run& run)
+	Status measureSurface(const std::vector<DrawnView>& views, const AppOptions& options, Run& run)
 	{
 		const auto same = std::find_if(result_.runs.begin(), result_.runs.end(), [&](const Run& other) {
-			return other.surface && other.setting.width == run.setting.width && other.setting.height == run.setting.height &&
-				   other.rate_granted == run.rate_granted && other.every_factor_one == run.every_factor_one;
+			return other.surface && other.setting.metric == run.setting.metric && other.setting.width == run.setting.width &&
+				   other.setting.height == run.setting.height && other.rate_granted == run.rate_granted &&
+				   other.every_factor_one == run.every_factor_one;
 		});
 		if (same != result_.runs.end())
 		{
@@ -252,35 +313,50 @@ private:
 			run.heat = same->heat;
 			return {};
 		}
-		auto micro = report::tessellate(host_, view, options.max_split, kMostMicroTriangles);
-		if (!micro)
+		std::vector<report::SurfaceErrors> errors;
+		for (size_t i = 0; i < views.size(); ++i)
 		{
-			logWarning("{}: its surface is not measured: {}", run.setting.label(), micro.error().message);
-			return {};
+			const auto measured = errorsOf(views[i].view, options, run, i == 0);
+			if (!measured)
+			{
+				logWarning("{}: its surface is not measured: {}", run.setting.label(), measured.error().message);
+				return {};
+			}
+			errors.push_back(*measured);
 		}
+		run.surface = report::alongPath(errors);
+		return {};
+	}
+
+	// `draws`: the picture of the errors too.
+	Result<report::SurfaceErrors> errorsOf(const View& view, const AppOptions& options, Run& run, bool draws)
+	{
+		TRY_ASSIGN(const report::MicroScene micro, report::tessellate(*host_, view, options.max_split, kMostMicroTriangles));
 		if (!surface_)
-			surface_ = std::make_unique<report::ReferenceSurface>(host_, view);
-		const report::SurfacePair pair(host_, view, *surface_, *micro);
+			surface_ = std::make_unique<report::ReferenceSurface>(*host_, view);
+		const report::SurfacePair pair(*host_, view, *surface_, micro);
 		const double diagonal = 2 * boundingRadius(subject_.scene);
 		report::SurfaceErrors errors;
-		errors.micro_triangles = micro->triangleCount();
+		errors.micro_triangles = micro.triangleCount();
 		errors.reference_mesh_triangles = surface_->triangleCount();
 		errors.visible = report::visibleError(pair, diagonal, {}, progress_);
 		errors.whole = report::wholeSurfaceError(pair, diagonal, {}, progress_);
 		report::includeSeen(errors.whole, errors.visible);
-		errors.numerics = report::measureNumerics(host_, view, *micro);
-		run.surface = errors;
-		run.heat = fmt::format("pictures/error_rate{}_{}x{}.png", run.rate_granted, options.width_px, options.height_px);
+		errors.numerics = report::measureNumerics(*host_, view, micro);
+		if (!draws)
+			return errors;
+		run.heat = fmt::format("pictures/error_rate{}_{}_{}x{}.png", run.rate_granted, run.setting.metric, options.width_px, options.height_px);
 		const report::ErrorPicture heat = report::errorPicture(pair, kHeatWidth, progress_);
-		return writePng(subject_.folder / run.heat, heat.width, heat.height, report::heatColors(heat), 4);
+		TRY(writePng(subject_.folder / run.heat, heat.width, heat.height, report::heatColors(heat), 4));
+		return errors;
 	}
 
 	const SweepSubject& subject_;
 	report::RunLog& log_;
-	reference::HostScene host_;
+	std::optional<reference::HostScene> host_;
 	report::Progress progress_;
 	std::unique_ptr<report::ReferenceSurface> surface_;
-	Camera camera_;
+	std::vector<Camera> cameras_;  // of the camera path, or the one that stands still
 	std::vector<uint8_t> sky_;
 	report::Picture reference_picture_;
 	report::ReferencePicture reference_;

@@ -1,6 +1,7 @@
 #include "app/scene_load.h"
 
 #include "app/camera_path.h"
+#include "app/list_options.h"
 #include "app/option_text.h"
 #include "base/check.h"
 #include "base/log.h"
@@ -106,6 +107,15 @@ Result<Camera> baseCamera(const BuiltScene& scene, const AppOptions& options)
 	return cameraOf(scene.cameras[index], scene);
 }
 
+BuildOptions buildOptionsOf(const AppOptions& options)
+{
+	BuildOptions build = { options.cluster_vertices, options.cluster_triangles, {} };
+	for (const Metric metric : metricsOf(options))
+		build.tables.include(metric);
+	build.tables.include(options.metric);
+	return build;
+}
+
 }  // namespace
 
 Result<ImportedScene> importScene(const std::string& scene, const AppOptions& options)
@@ -123,7 +133,7 @@ Result<ImportedScene> importScene(const std::string& scene, const AppOptions& op
 Result<BuiltScene> loadScene(const std::string& scene, const AppOptions& options)
 {
 	TRY_ASSIGN(const ImportedScene imported, importScene(scene, options));
-	TRY_ASSIGN(BuiltScene built, buildScene(imported, { options.cluster_vertices, options.cluster_triangles }));
+	TRY_ASSIGN(BuiltScene built, buildScene(imported, buildOptionsOf(options)));
 	for (const std::string& warning : built.warnings)
 		logWarning("{}", warning);
 	logInfo("built {} in {}; {} of {} in all", counted(built.traits.base_triangles, "triangle"), counted(built.clusters.size(), "cluster"),
@@ -136,14 +146,8 @@ Result<TessellationTable> loadChosenTable(const AppOptions& options)
 	return options.table.empty() ? Result<TessellationTable>(defaultTable()) : loadTable(options.table);
 }
 
-Result<Camera> chooseCamera(const BuiltScene& scene, const AppOptions& options)
+static Result<Camera> withOptions(Camera camera, const BuiltScene& scene, const AppOptions& options)
 {
-	TRY_ASSIGN(Camera camera, baseCamera(scene, options));
-	if (!options.camera_path.empty())
-	{
-		TRY_ASSIGN(const CameraPath path, readCameraPath(options.camera_path));
-		camera = path.at(0);
-	}
 	if (options.eye && !options.target)
 		camera.target = (scene.world_low + scene.world_high) / 2.0;
 	camera.eye = options.eye.value_or(camera.eye);
@@ -171,6 +175,33 @@ Result<Camera> chooseCamera(const BuiltScene& scene, const AppOptions& options)
 	if (alongView())
 		return fail(ExitCode::Usage, "--up {}: must be neither zero nor along the view", printVector(camera.up));
 	return camera;
+}
+
+Result<Camera> chooseCamera(const BuiltScene& scene, const AppOptions& options)
+{
+	TRY_ASSIGN(Camera camera, baseCamera(scene, options));
+	if (!options.camera_path.empty())
+	{
+		TRY_ASSIGN(const CameraPath path, readCameraPath(options.camera_path));
+		camera = path.at(0);
+	}
+	return withOptions(camera, scene, options);
+}
+
+Result<std::vector<Camera>> chooseCameras(const BuiltScene& scene, const AppOptions& options)
+{
+	std::vector<Camera> cameras;
+	if (options.camera_path.empty())
+	{
+		TRY_ASSIGN(cameras.emplace_back(), chooseCamera(scene, options));
+		return cameras;
+	}
+	TRY_ASSIGN(const CameraPath path, readCameraPath(options.camera_path));
+	for (const CameraKey& key : path.keys)
+	{
+		TRY_ASSIGN(cameras.emplace_back(), withOptions(key.camera, scene, options));
+	}
+	return cameras;
 }
 
 Result<Subject> loadSubject(const std::string& scene, const AppOptions& options)

@@ -22,6 +22,10 @@ Result<TessellationTable> loadChosenTable(const AppOptions& options);
 // --near over it. Errors: Usage (no such camera, options that do not span a view).
 Result<Camera> chooseCamera(const BuiltScene& scene, const AppOptions& options);
 
+// That of every key of --camera-path, --eye and the others over each; without a path the one of chooseCamera. Errors: as chooseCamera, and those of
+// the file.
+Result<std::vector<Camera>> chooseCameras(const BuiltScene& scene, const AppOptions& options);
+
 // What a frame is drawn of, found before the device is needed.
 struct Subject
 {

@@ -45,6 +45,8 @@ constexpr SceneArray kSceneArrays[] = {
 	{ "clusters", bytesOf<&BuiltScene::clusters> },
 	{ "cluster_bounds", bytesOf<&BuiltScene::cluster_bounds> },
 	{ "triangle_reaches", bytesOf<&BuiltScene::triangle_reaches> },
+	{ "triangle_details", bytesOf<&BuiltScene::triangle_details> },
+	{ "edge_roughness", bytesOf<&BuiltScene::edge_roughness> },
 	{ "meshes", bytesOf<&BuiltScene::meshes> },
 	{ "mesh_bounds", bytesOf<&BuiltScene::mesh_bounds> },
 	{ "material_height_maps", bytesOf<&BuiltScene::material_height_maps> },
@@ -206,6 +208,8 @@ Status FrameResources::makeSurface(const FramePlan& plan)
 	surface.seam_corners = kept("seam_corners");
 	surface.material_height_maps = kept("material_height_maps");
 	surface.height_maps = kept("height_maps");
+	surface.triangle_details = kept("triangle_details");
+	surface.edge_roughness = kept("edge_roughness");
 	return upload("surface", std::as_bytes(std::span(&surface, 1)));
 }
 

@@ -94,6 +94,8 @@ constexpr ResourceDesc kResources[] = {
 	{ "clusters", "buffer", perCluster<sizeof(ClusterRecord)> },
 	{ "cluster_bounds", "buffer", perCluster<sizeof(DisplacedBounds)> },
 	{ "triangle_reaches", "buffer", perTriangle<sizeof(TriangleReach)> },
+	{ "triangle_details", "buffer", perTriangle<sizeof(TriangleDetail)> },
+	{ "edge_roughness", "buffer", perTriangle<sizeof(vec3)> },
 	{ "meshes", "buffer", perMesh<sizeof(MeshRecord)> },
 	{ "mesh_bounds", "buffer", perMesh<sizeof(DisplacedBounds)> },
 	{ "instances", "buffer", perInstance<sizeof(InstanceRecord)> },

@@ -99,7 +99,19 @@ inline constexpr Condition kSeams = { [](const PlanInput& input) {
 										 return kDisplaced.holds(input) && input.scene.seam_edges + input.scene.seam_corners > 0;
 									 },
 									  "no displaced edge or corner lies on a seam" };
-inline constexpr Condition kTessellates = { [](const PlanInput& input) { return input.options.rate > 0 && input.view.factors_above_one; },
+inline constexpr Condition kDetail = { [](const PlanInput& input) { return input.options.metric == Metric::Detail && kDisplaced.holds(input); },
+									   "another metric is chosen, or no material displaces" };
+inline constexpr Condition kDisplacedEdges = { [](const PlanInput& input) {
+												  return input.options.metric == Metric::Displaced && kDisplaced.holds(input);
+											  },
+											   "another metric is chosen, or no material displaces" };
+inline constexpr Condition kMetricTables = { [](const PlanInput& input) { return kDetail.holds(input) || kDisplacedEdges.holds(input); },
+											 "the metric needs no tables" };
+// Where nothing is displaced, the metric `detail` has every factor 1.
+inline constexpr Condition kTessellates = { [](const PlanInput& input) {
+											   return input.options.rate > 0 && input.view.factors_above_one &&
+													  (input.options.metric != Metric::Detail || kDisplaced.holds(input));
+										   },
 											"no edge can get more than one segment at this rate and camera" };
 inline constexpr Condition kDoesNotTessellate = { [](const PlanInput& input) { return !kTessellates.holds(input); }, "cluster_classify writes it" };
 inline constexpr Condition kSplits = { [](const PlanInput& input) { return kTessellates.holds(input) && input.view.split_levels > 0; },

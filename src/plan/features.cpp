@@ -43,6 +43,8 @@ std::vector<Feature> shaderFeatures(const PlanInput& input)
 		conditional("KEEPS_PLACES", 27, kKeepsPlaces),
 		conditional("HAS_SHADOWS", 25, kShadows),
 		conditional("HAS_AMBIENT_OCCLUSION", 26, kAmbientOcclusion),
+		feature("HAS_DETAIL", 30, input.options.metric == Metric::Detail, "another metric is chosen"),
+		feature("HAS_DISPLACED_EDGES", 31, input.options.metric == Metric::Displaced, "another metric is chosen"),
 		feature("DIRECTIONS_ARE_NORMALS", 22, input.scene.directions_are_normals, "some direction differs from the normal"),
 	};
 }

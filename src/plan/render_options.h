@@ -1,5 +1,7 @@
 // What the user may ask of a frame: the values behind the option table of app/options.h.
 #pragma once
+#include "scene/metric.h"
+
 #include <cstdint>
 #include <map>
 #include <string>
@@ -54,7 +56,8 @@ struct CullOptions
 
 struct RenderOptions
 {
-	float rate = 4;          // pixels per segment; 0 = off
+	float rate = 4;  // pixels per segment; 0 = off
+	Metric metric = Metric::Edge;
 	uint32_t max_split = 8;  // pieces per edge in one split
 	Raster raster = Raster::Auto;
 	CullOptions cull;

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "shared/edge_detail.h"
 
 #include <algorithm>
 
@@ -26,11 +27,11 @@ struct Decision
 	bool isOne() const { return !split && a == 1 && b == 1 && c == 1; }
 };
 
-Decision decide(const Corner& p, const Corner& q, const Corner& r, const View& view, FactorRule rule)
+Decision decide(const Surface& surface, const EdgeBase& base, const Corner& p, const Corner& q, const Corner& r, const View& view, FactorRule rule)
 {
-	const EdgeView edge_a = viewEdge(p.relative, q.relative, domainLength(p.domain, q.domain), view);
-	const EdgeView edge_b = viewEdge(q.relative, r.relative, domainLength(q.domain, r.domain), view);
-	const EdgeView edge_c = viewEdge(r.relative, p.relative, domainLength(r.domain, p.domain), view);
+	const EdgeView edge_a = edgeByMetric(surface, base, p.domain, q.domain, p.relative, q.relative, view);
+	const EdgeView edge_b = edgeByMetric(surface, base, q.domain, r.domain, q.relative, r.relative, view);
+	const EdgeView edge_c = edgeByMetric(surface, base, r.domain, p.domain, r.relative, p.relative, view);
 	const uint32_t a = edgeFactor(edge_a, rule), b = edgeFactor(edge_b, rule), c = edgeFactor(edge_c, rule);
 	if (a != 0 && b != 0 && c != 0)
 		return { false, a, b, c };
@@ -55,7 +56,7 @@ public:
 		bool full = true;
 		for (uint32_t t = 0; t < clusterTriangles(cluster_); ++t)
 		{
-			decisions_[t] = decide(baseCorner(t, 0), baseCorner(t, 1), baseCorner(t, 2), view_, rule_);
+			decisions_[t] = decide(scene_.surface(), edgeBase(t), baseCorner(t, 0), baseCorner(t, 1), baseCorner(t, 2), view_, rule_);
 			full = full && decisions_[t].isOne();
 		}
 		if (full)
@@ -77,6 +78,8 @@ private:
 		const uint32_t triangle = AT(uint32_t, scene_.surface().triangles, cluster_.first_triangle + t);
 		return { domainCorner(corner), relative_[triangleVertex(triangle, corner)] };
 	}
+
+	EdgeBase edgeBase(uint32_t t) const { return { cluster_.first_triangle + t, placement_.inverse_scale_squared }; }
 
 	void add(Decision decision, DomainPoint p, DomainPoint q, DomainPoint r, uint32_t visible_cluster, uint32_t triangle, uint32_t level)
 	{
@@ -112,7 +115,8 @@ private:
 		{
 			const uvec3 child = patternTriangle(t, pattern, scene_.table(), piece.mirror);
 			const Corner &p = corners[child.x], &q = corners[child.y], &r = corners[child.z];
-			add(decide(p, q, r, view_, rule_), p.domain, q.domain, r.domain, piece.visible_cluster, piece.triangle, level + 1);
+			add(decide(scene_.surface(), edgeBase(piece.triangle), p, q, r, view_, rule_), p.domain, q.domain, r.domain, piece.visible_cluster,
+				piece.triangle, level + 1);
 		}
 	}
 

@@ -41,7 +41,7 @@ std::vector<ClusterRef> clustersThat(const HostScene& scene, const Keep& keep)
 
 }  // namespace
 
-HostScene::HostScene(const BuiltScene& scene, const TessellationTable& table) : built_(scene), table_size_(table.max_edge_segments)
+HostScene::HostScene(const BuiltScene& scene, const TessellationTable& table, Metric metric) : built_(scene), table_size_(table.max_edge_segments)
 {
 	for (const HeightMapData& map : scene.height_maps)
 		height_maps_.push_back(hostRecord(map));
@@ -62,9 +62,30 @@ HostScene::HostScene(const BuiltScene& scene, const TessellationTable& table) : 
 	surface_.seam_corners = addressOf<SeamCorner>(scene.seam_corners);
 	surface_.material_height_maps = addressOf<uint32_t>(orElse(scene.material_height_maps, no_height_maps_));
 	surface_.height_maps = addressOf<HeightMap>(height_maps_);
+	giveTables(metric);
 	table_.patterns = addressOf<PatternRange>(patterns_);
 	table_.vertices = addressOf<uint32_t>(table.vertices);
 	table_.triangles = addressOf<uint32_t>(table.triangles);
+}
+
+// The shared code goes by the metric whose tables it is given.
+void HostScene::giveTables(Metric metric)
+{
+	const size_t triangles = built_.triangles.size();
+	if (metric == Metric::Detail)
+	{
+		if (built_.uvs.empty())
+			no_details_.assign(triangles, {});
+		surface_.triangle_details = addressOf<TriangleDetail>(orElse(built_.triangle_details, no_details_));
+		CHECK(triangles == 0 || surface_.triangle_details != 0, "{}: built without the tables of metric detail", built_.path);
+	}
+	if (metric == Metric::Displaced)
+	{
+		if (built_.uvs.empty())
+			no_roughness_.assign(triangles, vec3(0));
+		surface_.edge_roughness = addressOf<vec3>(orElse(built_.edge_roughness, no_roughness_));
+		CHECK(triangles == 0 || surface_.edge_roughness != 0, "{}: built without the table of metric displaced", built_.path);
+	}
 }
 
 void HostScene::fillStandIns()

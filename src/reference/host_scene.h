@@ -1,5 +1,6 @@
 // A built scene and a table as the shared headers see them on the host: every address is one of host memory.
 #pragma once
+#include "scene/metric.h"
 #include "scene/scene.h"
 #include "shared/edge_factor.h"
 #include "shared/pattern.h"
@@ -18,9 +19,10 @@ class HostScene
 {
 public:
 	// Both must outlive this object and stay unchanged.
-	HostScene(const BuiltScene& scene, const TessellationTable& table);
+	// The scene must have been built with the metric's tables.
+	HostScene(const BuiltScene& scene, const TessellationTable& table, Metric metric = Metric::Edge);
 	// The two are kept by reference.
-	HostScene(BuiltScene&&, const TessellationTable&) = delete;
+	HostScene(BuiltScene&&, const TessellationTable&, Metric = Metric::Edge) = delete;
 	HostScene(const HostScene&) = delete;
 	HostScene& operator=(const HostScene&) = delete;
 
@@ -41,6 +43,7 @@ public:
 
 private:
 	void fillStandIns();
+	void giveTables(Metric metric);
 
 	const BuiltScene& built_;
 	uint32_t table_size_;
@@ -48,6 +51,8 @@ private:
 	std::vector<vec2> no_uvs_;
 	std::vector<float> no_densities_;
 	std::vector<uint32_t> no_seam_corners_, no_height_maps_;
+	std::vector<TriangleDetail> no_details_;
+	std::vector<vec3> no_roughness_;
 	std::vector<HeightMap> height_maps_;
 	std::vector<InstanceRecord> instances_;
 	std::vector<PatternRange> patterns_;

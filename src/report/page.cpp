@@ -42,9 +42,9 @@ std::string adviceHtml(const ReportData& data)
 	{
 		std::string names;
 		for (const size_t i : paretoFront(runs, ErrorKind::SeenP99))
-			names +=
-				fmt::format("{}rate {} with {} ({} px, {} ms)", names.empty() ? "" : "; ", runs[i]->setting.rate, escaped(runs[i]->setting.raster),
-							threeDigits(*errorOf(*runs[i], ErrorKind::SeenP99)), threeDigits(runs[i]->gpu_ms.median));
+			names += fmt::format("{}rate {} by {} with {} ({} px, {} ms)", names.empty() ? "" : "; ", runs[i]->setting.rate,
+								 escaped(runs[i]->setting.metric), escaped(runs[i]->setting.raster),
+								 threeDigits(*errorOf(*runs[i], ErrorKind::SeenP99)), threeDigits(runs[i]->gpu_ms.median));
 		if (!names.empty())
 			html += fmt::format("<p class=\"quiet\">Worth having at {}x{} (nothing tried is both faster and more exact): {}.</p>",
 								runs[0]->setting.width, runs[0]->setting.height, names);
@@ -190,7 +190,8 @@ std::string methodHtml(const ReportData& data)
 		if (run.image && references.insert(run.reference.picture).second)
 			html += fmt::format(" Reference at {}x{}: rate {:g} ({} micro-triangles).", run.setting.width, run.setting.height,
 								run.reference.rate_granted, run.reference.micro_triangles);
-	html += "</li><li>Time: GPU timestamps around everything that makes the picture; frames of a still camera after warm-up.</li></ul><dl>";
+	html += "</li><li>Time: GPU timestamps around everything that makes the picture; frames of a camera that stands still, or of every key of a path "
+			"in turn, after warm-up.</li></ul><dl>";
 	const auto fact = [&](std::string_view name, std::string_view value) {
 		html += fmt::format("<dt>{}</dt><dd>{}</dd>", escaped(name), escaped(value));
 	};

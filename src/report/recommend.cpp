@@ -13,9 +13,9 @@ constexpr ErrorKind kBound = ErrorKind::SeenMax;  // what stays under a limit
 
 std::string describe(const Run& run)
 {
-	return fmt::format("rate {} with {}: at most {} px of what is seen (99th percentile {}), {} ms, {} micro-triangles", run.setting.rate,
-					   run.setting.raster, threeDigits(*errorOf(run, kBound)), threeDigits(*errorOf(run, kJudge)), threeDigits(run.gpu_ms.median),
-					   run.counts.micro_triangles);
+	return fmt::format("rate {} by {} with {}: at most {} px of what is seen (99th percentile {}), {} ms, {} micro-triangles", run.setting.rate,
+					   run.setting.metric, run.setting.raster, threeDigits(*errorOf(run, kBound)), threeDigits(*errorOf(run, kJudge)),
+					   threeDigits(run.gpu_ms.median), run.counts.micro_triangles);
 }
 
 std::vector<const Run*> measuredOf(std::span<const Run* const> runs)

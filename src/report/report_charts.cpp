@@ -12,7 +12,7 @@ namespace
 
 using Value = std::function<double(const Run&)>;
 
-// Runs of one raster path and picture size, by rate from coarse to fine.
+// Runs of one metric, raster path and picture size, by rate from coarse to fine.
 struct Group
 {
 	std::string name;
@@ -22,13 +22,21 @@ struct Group
 std::vector<Group> groupsOf(const ReportData& data)
 {
 	const bool many_sizes = bySize(data.runs).size() > 1;
+	const bool many_metrics =
+		std::any_of(data.runs.begin(), data.runs.end(), [&](const Run& run) { return run.setting.metric != data.runs[0].setting.metric; });
+	const bool many_rasters =
+		std::any_of(data.runs.begin(), data.runs.end(), [&](const Run& run) { return run.setting.raster != data.runs[0].setting.raster; });
 	std::vector<Group> groups;
 	for (const Run& run : data.runs)
 	{
 		if (!run.failure.empty())
 			continue;
 		const Setting& s = run.setting;
-		const std::string name = many_sizes ? fmt::format("{} {}x{}", s.raster, s.width, s.height) : s.raster;
+		std::string name = many_metrics ? s.metric : "";
+		if (many_rasters || !many_metrics)
+			name += (name.empty() ? "" : " ") + s.raster;
+		if (many_sizes)
+			name += fmt::format(" {}x{}", s.width, s.height);
 		auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& group) { return group.name == name; });
 		if (found == groups.end())
 			found = groups.insert(groups.end(), { name, {} });

@@ -72,7 +72,86 @@ TimeFigures timeFigures(std::vector<double> gpu_ms)
 
 std::string Setting::label() const
 {
-	return fmt::format("rate {}, {}, {}x{}", rate, raster, width, height);
+	return fmt::format("rate {}, {}, {}, {}x{}", rate, metric, raster, width, height);
+}
+
+namespace
+{
+
+// Adds a camera's figures; finishFigures makes means of them.
+void addFigures(Figures& sum, const Figures& figures)
+{
+	sum.max = std::max(sum.max, figures.max);
+	sum.rms += figures.rms * figures.rms;
+	sum.p99 += figures.p99;
+}
+
+void finishFigures(Figures& sum, size_t count)
+{
+	sum.rms = std::sqrt(sum.rms / double(count));
+	sum.p99 /= double(count);
+}
+
+RegionError regionAlongPath(std::span<const SurfaceErrors> cameras, RegionError SurfaceErrors::*region)
+{
+	constexpr Figures RegionError::*kFigures[] = {
+		&RegionError::to_tessellated_mesh, &RegionError::to_reference_mesh, &RegionError::mesh, &RegionError::relative,
+		&RegionError::to_tessellated_px,   &RegionError::to_reference_px,   &RegionError::px,   &RegionError::normal_deg
+	};
+	RegionError result;
+	result.converged = true;
+	for (const SurfaceErrors& camera : cameras)
+	{
+		const RegionError& error = camera.*region;
+		for (const auto figures : kFigures)
+			addFigures(result.*figures, error.*figures);
+		result.samples += error.samples;
+		result.change = std::max(result.change, error.change);
+		result.converged = result.converged && error.converged;
+	}
+	for (const auto figures : kFigures)
+		finishFigures(result.*figures, cameras.size());
+	return result;
+}
+
+Numerics numericsAlongPath(std::span<const SurfaceErrors> cameras)
+{
+	Numerics result;
+	for (const SurfaceErrors& camera : cameras)
+	{
+		const Numerics& own = camera.numerics;
+		result.vertices += own.vertices;
+		result.not_finite += own.not_finite;
+		result.worst_base_ulp = std::max(result.worst_base_ulp, own.worst_base_ulp);
+		result.worst_displaced_ulp = std::max(result.worst_displaced_ulp, own.worst_displaced_ulp);
+		result.worst_share_of_bound = std::max(result.worst_share_of_bound, own.worst_share_of_bound);
+		result.shared_edges += own.shared_edges;
+		result.differing_edges += own.differing_edges;
+		result.edge_points += own.edge_points;
+		result.zero_area_triangles += own.zero_area_triangles;
+		if (result.first_problem.empty())
+			result.first_problem = own.first_problem;
+	}
+	return result;
+}
+
+}  // namespace
+
+SurfaceErrors alongPath(std::span<const SurfaceErrors> cameras)
+{
+	if (cameras.size() == 1)
+		return cameras[0];
+	SurfaceErrors result;
+	result.whole = regionAlongPath(cameras, &SurfaceErrors::whole);
+	result.visible = regionAlongPath(cameras, &SurfaceErrors::visible);
+	result.numerics = numericsAlongPath(cameras);
+	for (const SurfaceErrors& camera : cameras)
+	{
+		result.micro_triangles += camera.micro_triangles;
+		result.reference_mesh_triangles = std::max(result.reference_mesh_triangles, camera.reference_mesh_triangles);
+	}
+	result.micro_triangles /= cameras.size();
+	return result;
 }
 
 json runJson(const Run& run)
@@ -82,6 +161,7 @@ json runJson(const Run& run)
 					{ "rate_granted", run.rate_granted },
 					{ "every_factor_one", run.every_factor_one },
 					{ "rounds", run.rounds },
+					{ "cameras", run.cameras },
 					{ "frames", run.frames },
 					{ "warmup", run.warmup },
 					{ "gpu_ms", run.gpu_ms },
@@ -107,6 +187,7 @@ Result<Run> runFromJson(const json& from, const std::string& where)
 		from.at("rate_granted").get_to(run.rate_granted);
 		from.at("every_factor_one").get_to(run.every_factor_one);
 		from.at("rounds").get_to(run.rounds);
+		from.at("cameras").get_to(run.cameras);
 		from.at("frames").get_to(run.frames);
 		from.at("warmup").get_to(run.warmup);
 		from.at("gpu_ms").get_to(run.gpu_ms);

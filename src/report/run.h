@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -76,6 +77,7 @@ struct Run
 	double rate_granted = 0;
 	bool every_factor_one = false;
 	uint32_t rounds = 1;
+	uint32_t cameras = 1;  // of a camera path: its keys; counts are their mean
 	uint32_t frames = 0, warmup = 0;
 	TimeFigures gpu_ms;
 	std::vector<PassFigures> passes;  // in the frame's order
@@ -88,6 +90,10 @@ struct Run
 
 	bool isCoarsened() const { return every_factor_one || rate_granted > setting.rate; }
 };
+
+// What the errors along a camera path come to: of figures the largest `max`, the mean `p99` and the root mean square; the rest as of the worst
+// camera. `cameras` is not empty.
+SurfaceErrors alongPath(std::span<const SurfaceErrors> cameras);
 
 nlohmann::json runJson(const Run& run);
 // Errors: BadInput (not such an object; `where` names it).

@@ -275,6 +275,9 @@ FactorBound boundFactors(const Camera& camera, const BuiltScene& scene, const Vi
 			const double distance = camera.orthographic ? 1 : std::max(near, distanceToInstance(camera, scene, instance));
 			bound.largest_factor = std::max(bound.largest_factor, scene.mesh_longest_edge[instance.mesh] * largestScale(instance) / (s * distance));
 		}
+		if (request.metric == Metric::Displaced)
+			bound.largest_factor *=
+				std::sqrt(1 + double(scene.most_roughness) * double(request.displacement_scale) * double(request.displacement_scale));
 		bound.largest_factor *= 1.001;  // covers float rounding on the device
 	}
 	bound.above_one = bound.largest_factor >= 1.5;

@@ -1,6 +1,7 @@
 // Cameras, and the View that shaders and the CPU reference see: computed in double, rounded once.
 #pragma once
 #include "base/result.h"
+#include "scene/metric.h"
 #include "scene/scene.h"
 
 #include <optional>
@@ -28,6 +29,7 @@ struct ViewRequest
 	double rate_px = 4;             // granted rate, pixels per segment; 0: every factor is 1
 	bool every_factor_one = false;  // the coarsest a frame can be (C2)
 	float displacement_scale = 1;
+	Metric metric = Metric::Edge;
 };
 
 // A camera that shows the whole scene.
@@ -58,7 +60,7 @@ double inverseScaleSquared(const Instance& instance);
 
 InstanceRecord instanceRecord(const Instance& instance);
 
-// What the host can say of factors before the frame: an upper bound over all instances.
+// What the host can say of factors before the frame: an upper bound over all instances, for the metric of the request.
 struct FactorBound
 {
 	double largest_factor = 1;  // no edge's length / (s * distance) exceeds this

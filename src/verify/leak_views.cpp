@@ -20,7 +20,7 @@ constexpr size_t kTellEvery = 500;
 class LeakRun
 {
 public:
-	explicit LeakRun(const Request& request) : request_(request), truth_(*request.scene, *request.table)
+	explicit LeakRun(const Request& request) : request_(request), truth_(*request.scene, *request.table, request.options.metric)
 	{
 		report_.checks = { { kNoLeaks, "pixels", {} } };
 	}

@@ -56,7 +56,10 @@ struct PathSources
 class Run
 {
 public:
-	explicit Run(const Request& request) : request_(request), truth_(*request.scene, *request.table) { report_.checks = allChecks(); }
+	explicit Run(const Request& request) : request_(request), truth_(*request.scene, *request.table, request.options.metric)
+	{
+		report_.checks = allChecks();
+	}
 
 	Result<Report> run()
 	{

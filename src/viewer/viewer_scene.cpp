@@ -191,7 +191,8 @@ Status Viewer::readBack()
 	if (!pixel)
 		return {};
 	if (!host_scene_)
-		host_scene_ = std::make_unique<reference::HostScene>(renderer_scene_->subject.scene, renderer_scene_->subject.table);
+		host_scene_ =
+			std::make_unique<reference::HostScene>(renderer_scene_->subject.scene, renderer_scene_->subject.table, running_.input.options.metric);
 	const RenderOptions& options = running_.input.options;
 	TRY_ASSIGN(Inspection found,
 			   inspectPixel(*renderer_, *host_scene_, running_.result, glm::min(*pixel, uvec2(options.width_px - 1, options.height_px - 1))));

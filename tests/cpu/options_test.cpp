@@ -71,7 +71,8 @@ const std::vector<std::pair<std::string, std::string>> kSamples = {
 	{ "grid-u", "-2,0,0" },
 	{ "grid-v", "0,2,0" },
 	{ "rate", "0.3" },
-	{ "metric", "edge" },
+	{ "metric", "displaced" },
+	{ "metrics", "edge,detail" },
 	{ "raster", "indexed" },
 	{ "cull", "backface" },
 	{ "max-split", "5" },
@@ -153,7 +154,7 @@ TEST(options, everyOptionRoundTripsThroughItsText)
 	EXPECT_EQ(optionsJson(parsed(printed(options))), json);
 	EXPECT_EQ(optionsJson(parsed(printed({}))), defaults);
 	for (const auto& [name, value] : kSamples)
-		EXPECT_EQ(json[jsonKey(name)] == defaults[jsonKey(name)], name == "metric") << name;
+		EXPECT_NE(json[jsonKey(name)], defaults[jsonKey(name)]) << name;
 }
 
 TEST(options, valuesArriveWhereTheyBelong)
@@ -248,7 +249,7 @@ TEST(options, wrongValuesAreAnsweredWithRightOnes)
 			EXPECT_NE(message.find(part), std::string::npos) << part << " is not in: " << message;
 	};
 	expect({ "--raster", "voxels" }, { "--raster voxels", "auto, soft, mesh, indexed" });
-	expect({ "--metric", "curvature" }, { "--metric curvature", "edge is right" });
+	expect({ "--metric", "curvature" }, { "--metric curvature", "edge, displaced, detail" });
 	expect({ "--view", "x" }, { "--view x", "shaded", "materials" });
 	expect({ "--shading", "x" }, { "smooth, flat" });
 	expect({ "--size", "640" }, { "--size 640", "65536", "1920x1080" });

@@ -17,17 +17,23 @@ BuiltScene builtOrDie(const ImportedScene& imported, const BuildOptions& options
 	return std::move(*built);
 }
 
+// The metric whose table was asked for.
+Metric metricOf(MetricTables tables)
+{
+	return tables.details ? Metric::Detail : tables.roughness ? Metric::Displaced : Metric::Edge;
+}
+
 }  // namespace
 
 ReferenceScene::ReferenceScene(const ImportedScene& imported, const TessellationTable& table, const BuildOptions& options)
-	: built(builtOrDie(imported, options)), host(built, table)
+	: built(builtOrDie(imported, options)), host(built, table, metricOf(options.tables))
 {}
 
-std::unique_ptr<ReferenceScene> builtinScene(std::string_view name)
+std::unique_ptr<ReferenceScene> builtinScene(std::string_view name, const BuildOptions& options)
 {
 	const Result<ImportedScene> imported = makeBuiltinScene(name);
 	CHECK(imported.has_value(), "{}", imported.error().message);
-	return std::make_unique<ReferenceScene>(*imported);
+	return std::make_unique<ReferenceScene>(*imported, defaultTable(), options);
 }
 
 ImportedScene triangleScene(const std::vector<vec3>& corners, const dmat4& world)

@@ -18,7 +18,7 @@ struct ReferenceScene
 	BuiltScene built;
 	reference::HostScene host;
 };
-std::unique_ptr<ReferenceScene> builtinScene(std::string_view name);
+std::unique_ptr<ReferenceScene> builtinScene(std::string_view name, const BuildOptions& options = {});
 
 // One mesh of triangles (corner positions, three each), not displaced, placed by `world`.
 ImportedScene triangleScene(const std::vector<vec3>& corners, const dmat4& world = dmat4(1));

@@ -127,8 +127,9 @@ std::vector<HostLayout> hostLayouts()
 		LAYOUT(10, HeightMap, texels, width, height, level_count, format, wrap_u, wrap_v, factor, offset, level_first),
 		LAYOUT(5, SeamEdge, uv_first, uv_second, density_first, density_second, height_map),
 		LAYOUT(3, SeamCorner, uv, density, height_map),
-		LAYOUT(11, Surface, positions, directions, uvs, densities, triangles, first_seam_edges, seam_edges, seam_corner_indices, seam_corners,
-			   material_height_maps, height_maps),
+		LAYOUT(2, TriangleDetail, curves, bias),
+		LAYOUT(13, Surface, positions, directions, uvs, densities, triangles, first_seam_edges, seam_edges, seam_corner_indices, seam_corners,
+			   material_height_maps, height_maps, triangle_details, edge_roughness),
 		LAYOUT(8, ListHead, group_width, group_rows, group_depth, wanted, capacity, peak, peak_used, unused),
 		LAYOUT(16, FrameCounts, overflow, covered_pixels, micro_low, micro_high, full_cluster_triangles, expanded_triangles, rate_step, listed_again,
 			   levels_missing, search_finished, second_batches, hidden_parts, revealed_parts, dump_vertices, dump_triangles, split_count),
@@ -347,10 +348,11 @@ TEST(sharedFloatCode, isNeverContractedAndUsesOnlyExactOperations)
 	EXPECT_EQ(joined(check.problems), "");
 	EXPECT_GT(check.operations, 200u);
 	for (const char* name :
-		 { "edgeHasAtLeast", "viewEdge",       "weighted",     "weightedVec3",        "normalized",     "placed",        "affineRow",
-		   "clipPosition",   "cameraRelative", "scaledRow",    "rateDistanceSquared", "placementOf",    "domainWeights", "foldCoordinate",
-		   "texelPlace",     "texelHeight",    "blendHeights", "levelHeight",         "roughLog2",      "heightLevel",   "heightAt",
-		   "displacementAt", "displacedPoint", "displaced",    "sampleAtPoint",       "sampleAtVertex", "seamEdgeSource" })
+		 { "edgeHasAtLeast", "viewEdge",        "weighted",      "weightedVec3",          "normalized",     "placed",         "affineRow",
+		   "clipPosition",   "cameraRelative",  "scaledRow",     "rateDistanceSquared",   "placementOf",    "domainWeights",  "foldCoordinate",
+		   "texelPlace",     "texelHeight",     "blendHeights",  "levelHeight",           "roughLog2",      "heightLevel",    "heightAt",
+		   "displacementAt", "displacedPoint",  "displaced",     "sampleAtPoint",         "sampleAtVertex", "seamEdgeSource", "edgeByMetric",
+		   "edgeByDetail",   "edgeAsDisplaced", "longestWithin", "nearestDistanceSquared" })
 		EXPECT_TRUE(check.functions.count(name)) << name << ": no shader has it, so it was not checked";
 }
 

@@ -88,8 +88,14 @@ Device& gpu()
 
 // --- scenes ----------------------------------------------------------------------------------------------------------------------
 
+// The reference goes by the metric whose table was asked for.
+static Metric metricOf(MetricTables tables)
+{
+	return tables.details ? Metric::Detail : tables.roughness ? Metric::Displaced : Metric::Edge;
+}
+
 GpuScene::GpuScene(const ImportedScene& imported, const TessellationTable& used_table, const BuildOptions& options)
-	: table(used_table), built(builtOrDie(imported, options)), host(built, table),
+	: table(used_table), built(builtOrDie(imported, options)), host(built, table, metricOf(options.tables)),
 	  camera(built.cameras.empty() ? framingCamera(built) : cameraOf(built.cameras[0], built))
 {}
 

@@ -18,6 +18,8 @@ static constexpr Use kUses[] = {
 	{ "cluster_bounds", Access::ComputeRead, &kFrustumCulls },
 	{ "positions", Access::ComputeRead },
 	{ "triangles", Access::ComputeRead },
+	{ "triangle_details", Access::ComputeRead, &kDetail },
+	{ "edge_roughness", Access::ComputeRead, &kDisplacedEdges },
 	{ "patterns", Access::ComputeRead },
 	{ "table_vertices", Access::ComputeRead },
 	{ "table_triangles", Access::ComputeRead },

@@ -2,6 +2,7 @@
 
 #include "scene/build/bounds.h"
 #include "scene/build/cluster_build.h"
+#include "scene/build/edge_detail.h"
 #include "scene/build/traits.h"
 
 #include <algorithm>
@@ -129,6 +130,10 @@ Result<BuiltScene> buildScene(const ImportedScene& imported, const BuildOptions&
 	}
 	buildBounds(scene);
 	TRY(checkReach(scene));
+	if (options.tables.details)
+		buildEdgeDetails(scene);
+	if (options.tables.roughness)
+		buildEdgeRoughness(scene);
 	findTraits(scene);
 	return scene;
 }

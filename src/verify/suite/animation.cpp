@@ -47,7 +47,9 @@ struct Counts
 class AnimationRun
 {
 public:
-	AnimationRun(const SuiteDevice& suite, const Case& one, const BuiltScene& scene) : suite_(suite), case_(one), truth_(scene, suite.table) {}
+	AnimationRun(const SuiteDevice& suite, const Case& one, const BuiltScene& scene)
+		: suite_(suite), case_(one), truth_(scene, suite.table, one.options.metric)
+	{}
 
 	Result<Measured> run(const Animation& forth)
 	{
@@ -217,7 +219,7 @@ Result<Measured> measureScales(const SuiteDevice& suite, const Case& one, const 
 	{
 		Case scaled = one;
 		scaled.options.displacement_scale = scale;
-		reference::HostScene truth(scene, suite.table);
+		reference::HostScene truth(scene, suite.table, one.options.metric);
 		RenderOptions options = scaled.options;
 		options.width_px = one.width_px;
 		options.height_px = one.height_px;

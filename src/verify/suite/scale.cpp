@@ -94,7 +94,7 @@ constexpr dvec3 kFar = { 1e7, -1e7, 1e7 };
 // What a camera sees of a scene, `at` from the origin as the scene is.
 Result<Capture> seenFrom(const SuiteDevice& suite, const Case& one, const BuiltScene& scene, Camera camera, dvec3 at)
 {
-	const reference::HostScene truth(scene, suite.table);
+	const reference::HostScene truth(scene, suite.table, one.options.metric);
 	RenderOptions options = one.options;
 	options.rate = one.rates.front();
 	options.width_px = one.width_px;
