@@ -328,6 +328,35 @@ TEST(geometryError, fallsWithTheSquareOfTheSegmentLengthOnASmoothMap)
 	EXPECT_NEAR(slopeOf(max), 2, 0.2);
 }
 
+// At a rate a little finer than that of `edge`, the metric `detail` is as exact over the whole surface with at most half the micro-triangles.
+TEST(geometryError, detailNeedsAtMostHalfTheTrianglesOfEdgeOnTerrainAndPlanet)
+{
+	for (const char* name : { "terrain", "planet" })
+	{
+		BuildOptions tables;
+		tables.tables.details = true;
+		const auto by_edge = builtinScene(name), by_detail = builtinScene(name, tables);
+		const Camera camera = cameraOf(by_edge->built.cameras.at(0), by_edge->built);
+		const auto at = [&](const ReferenceScene& scene, double rate_px) {
+			ViewRequest request = { 480, 270 };
+			request.rate_px = rate_px;
+			return measure(scene, viewOf(scene, camera, request), { 1 << 15, 1 << 15, 0.01 });
+		};
+		const Measured edge = at(*by_edge, 4);
+		double least = 1;
+		for (const double rate : { 3.8, 3.2, 2.8 })
+		{
+			const Measured detail = at(*by_detail, rate);
+			const double share = double(detail.triangles) / double(edge.triangles);
+			fmt::print("{}: rate {}: {:.3f} of the micro-triangles, errors {:.3f} and {:.3f} px (99th percentile, largest), edge {:.3f} and {:.3f}\n",
+					   name, rate, share, detail.whole.px.p99, detail.whole.px.max, edge.whole.px.p99, edge.whole.px.max);
+			if (detail.whole.px.p99 <= edge.whole.px.p99 && detail.whole.px.max <= edge.whole.px.max * 1.05)
+				least = std::min(least, share);
+		}
+		EXPECT_LE(least, 0.5) << name;
+	}
+}
+
 TEST(geometryError, flatDisplacementIsAtTheFloatFloorAtAnyRate)
 {
 	const ReferenceScene scene(rhombus(3, constantImage(64, 64, TexelFormat::U16, 40000), 0.3f));
