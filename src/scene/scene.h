@@ -86,7 +86,7 @@ struct BuiltScene
 	std::vector<uint32_t> first_seam_edges;
 	std::vector<uint32_t> source_triangles;        // index of the triangle in its mesh's input order. Host only
 	std::vector<TriangleDetail> triangle_details;  // metric `detail` (build/edge_detail.h), empty unless asked for
-	std::vector<vec3> edge_roughness;  // of the triangle's three edges: metric `displaced`, empty unless asked for
+	std::vector<vec3> edge_roughness;              // of the triangle's three edges: metric `displaced`, empty unless asked for
 	float most_roughness = 0;
 	// seams
 	std::vector<SeamEdge> seam_edges;
