@@ -184,6 +184,12 @@ std::vector<Raster> rasterPaths()
 		paths.push_back(Raster::Indexed);
 	if (gpu().gates.buffer_atomics_64)
 		paths.push_back(Raster::Soft);
+	return paths;
+}
+
+std::vector<Raster> everyPath()
+{
+	std::vector<Raster> paths = rasterPaths();
 	if (gpu().gates.rays())
 		paths.push_back(Raster::Rt);
 	return paths;
@@ -193,7 +199,6 @@ std::vector<Raster> drawingPaths()
 {
 	std::vector<Raster> paths = rasterPaths();
 	std::erase(paths, Raster::Soft);
-	std::erase(paths, Raster::Rt);
 	return paths;
 }
 

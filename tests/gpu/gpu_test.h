@@ -59,8 +59,10 @@ Camera squareCamera(dvec3 eye, dvec3 target);
 // 160 x 90, mesh shaders where the device has them.
 RenderOptions smallOptions(float rate);
 
-// The ways to find visibility that this device has. A new one is added here and is then compared with the others.
+// The rasterisers that this device has. A new one is added here and is then compared with the others.
 std::vector<Raster> rasterPaths();
+// Those and, last, rays: seconds a frame on a software device, so only where rays can make a difference.
+std::vector<Raster> everyPath();
 // Those that keep micro-vertices in a buffer and visibility in attachments.
 std::vector<Raster> drawingPaths();
 

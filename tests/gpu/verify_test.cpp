@@ -27,7 +27,7 @@ verify::Request requestFor(const GpuScene& scene, std::vector<float> rates, uint
 	request.options.height_px = 68;
 	request.uncut_options = request.options;
 	request.uncut_options.cull = { false, false, false };
-	request.paths = verify::rasterPaths(gpu());
+	request.paths = rasterPaths();
 	request.cameras = verify::randomCameras(scene.built, 5, random_cameras);
 	request.cameras.push_back({ "own", scene.camera });
 	request.rates = std::move(rates);
@@ -59,7 +59,9 @@ uint64_t lookedAt(Report& report, std::string_view check, const std::string& wha
 TEST_F(verifyScene, everyPromiseHoldsFromEveryKindOfCamera)
 {
 	const auto scene = gpuScene("cube");
-	Report report = runOrDie(requestFor(*scene, { 5 }, 6));
+	verify::Request request = requestFor(*scene, { 5 }, 6);
+	request.paths = everyPath();
+	Report report = runOrDie(request);
 	expectHolds(report, "cube");
 	EXPECT_EQ(report.frames.size(), 7u);
 	// Nothing was skipped.
@@ -67,7 +69,7 @@ TEST_F(verifyScene, everyPromiseHoldsFromEveryKindOfCamera)
 	EXPECT_GT(lookedAt(report, verify::kNoHoles, "base triangles"), 300u);
 	EXPECT_GT(lookedAt(report, verify::kNoLeaks, "pixels within the silhouette"), 5000u);
 	EXPECT_GT(lookedAt(report, verify::kConservative, "culled micro-triangles"), 1000u);
-	EXPECT_EQ(lookedAt(report, verify::kDeterministic, "frames compared"), report.frames.size() * 4 * verify::rasterPaths(gpu()).size());
+	EXPECT_EQ(lookedAt(report, verify::kDeterministic, "frames compared"), report.frames.size() * 4 * everyPath().size());
 	EXPECT_EQ(lookedAt(report, verify::kFinite, "compared in double"), lookedAt(report, verify::kFinite, "micro-vertices"));
 	EXPECT_GT(report.seams.points, 0u);
 }

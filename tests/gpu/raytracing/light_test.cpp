@@ -76,7 +76,7 @@ TEST_F(light, theShadowOfASquareLandsWhereTheSunSays)
 	addRectangle(imported, dvec3(-0.5, 1, 0.5), dvec3(1, 0, 0), dvec3(0, 0, -1));
 	const GpuScene scene(imported);
 	const Camera camera = squareCamera(dvec3(-2.5, 3.5, -1), dvec3(-0.7, 0, -0.8));
-	for (const Raster raster : rasterPaths())
+	for (const Raster raster : everyPath())
 		for (const float rate : { 0.0f, 6.0f })
 		{
 			RenderOptions options = rayOptions(rate, raster);
