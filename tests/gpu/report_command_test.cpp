@@ -67,7 +67,7 @@ TEST_F(reportCommand, finerRatesHaveSmallerErrorsAndEveryFigureIsThere)
 		EXPECT_LT(one["surface"]["whole"]["px"]["rms"], last) << one["setting"];
 		last = one["surface"]["whole"]["px"]["rms"];
 	}
-	for (const char* file : { "report.html", "report.csv", "runs.jsonl", "plots/error_time_seen_p99.svg", "pictures/rate2_soft_96x64.png" })
+	for (const char* file : { "report.html", "report.csv", "runs.jsonl", "plots/error_time_seen_p99.svg", "pictures/rate2_soft_edge_96x64.png" })
 		EXPECT_TRUE(std::filesystem::exists(scratchFolder() / "figures" / file)) << file;
 }
 
