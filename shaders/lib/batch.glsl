@@ -47,7 +47,7 @@ void loadPart(RasterInputs inputs, uint part, PartPlace place, uint first_offset
 	part_sums[part] = place.offsets - first_offsets;
 }
 
-// Once part_sums are there: what owningPart looks up.
+// Once part_sums are there: what vertexOwner and triangleOwner look up.
 void loadOwners()
 {
 	// From the last lane down: the first ones have other work at that time.

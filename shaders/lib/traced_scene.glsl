@@ -11,4 +11,7 @@ struct TracedHit
 // Farther than anything: distances are scaled so that the scene ends between 1 and 2 (shared/view.h), unless it is seen from far away.
 const float RAY_END = 1e30;
 
+// Of shadow and ambient rays: any surface is in the way, whatever side it shows.
+const uint LIGHT_RAY_FLAGS = gl_RayFlagsOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT;
+
 #endif
