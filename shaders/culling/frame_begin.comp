@@ -34,6 +34,7 @@ void main()
 		args.counts.at[0].revealed_parts = 0u;
 		args.counts.at[0].dump_vertices = 0u;
 		args.counts.at[0].dump_triangles = 0u;
+		args.counts.at[0].left_items = 0u;
 		args.counts.at[0].rate_step = 0u;
 		args.counts.at[0].listed_again = 0u;
 		args.counts.at[0].levels_missing = 0u;

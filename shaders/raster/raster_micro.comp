@@ -1,6 +1,8 @@
-// raster_micro: evaluate the micro-vertices of a full cluster or batch into shared memory and rasterise them there.
+// raster_micro: evaluate the micro-vertices of a full cluster or batch into shared memory and rasterise them there. Where raster_small
+// has been before, only the items that it left; as raster_revealed, those of the second phase.
 //
 //   in   full_clusters, batches
+//   in   left_items           uint[]     with SMALL_FIRST: numbers of items, from raster_small
 //   out  visibility_buffer   uint64[]   per pixel, depth << 32 | payload, by atomicMax
 //
 // One workgroup takes one full cluster or batch at a time: lanes stride over its vertices, then over its triangles.
@@ -13,20 +15,8 @@ layout(local_size_x_id = 0) in;
 #define STAGED_PARTS RASTER_BATCH_PARTS
 #define STAGED_VERTICES RASTER_BATCH_VERTICES
 #define STAGED_TRIANGLES RASTER_BATCH_TRIANGLES
-#include "lib/features.glsl"
-#include "lib/frame_data.glsl"
-#include "raster/raster_micro.h"
-#include "lib/soft_raster.glsl"
-#include "lib/work_item.glsl"
-
-layout(push_constant, scalar) uniform Args { RasterMicroArgs args; };
-
-bool isTwoSided(WorkItem item, uint triangle)
-{
-	if (!HAS_MIXED_SIDES)
-		return !HAS_SINGLE_SIDED;
-	return (args.inputs.material_flags.at[itemMaterial(item, triangle)] & MATERIAL_DOUBLE_SIDED) != 0u;
-}
+#include "lib/raster_items.glsl"
+#include "lib/soft_raster_large.glsl"
 
 void rasterTriangles(WorkItem item, bool projected, View view)
 {
@@ -76,23 +66,24 @@ void rasterItem(WorkItem item, View view)
 	barrier();
 }
 
-// Items of this phase: full clusters by their own word, batches by range.
+void rasterNumbered(uint number, uint cluster_count, View view)
+{
+	beginRaster();
+	rasterItem(workItem(args.inputs, args.full_clusters, args.batches, number, cluster_count), view);
+}
+
 void main()
 {
 	if (args.counts.at[0].overflow != 0u)
 		return;
 	View view = frame_view;
-	bool second = HAS_OCCLUSION && args.phase == PHASE_SECOND;
-	uint cluster_count = args.heads.at[LIST_FULL_CLUSTERS].wanted;
-	uint first_batch = second ? args.counts.at[0].second_batches : 0u;
-	uint batch_end = HAS_TESSELLATION ? (HAS_OCCLUSION && !second ? args.counts.at[0].second_batches : args.heads.at[LIST_BATCHES].wanted) : 0u;
-	uint item_count = cluster_count + batch_end - first_batch;
-	for (uint index = gl_WorkGroupID.x; index < item_count; index += gl_NumWorkGroups.x)
+	PhaseItems items = phaseItems();
+	bool is_rest = SMALL_FIRST && args.phase == PHASE_FIRST;
+	uint count = is_rest ? args.counts.at[0].left_items : items.count;
+	for (uint index = gl_WorkGroupID.x; index < count; index += gl_NumWorkGroups.x)
 	{
-		if (HAS_OCCLUSION && index < cluster_count && args.full_clusters.at[index].phase != args.phase)
-			continue;
-		beginRaster();
-		uint item = index < cluster_count ? index : index + first_batch;
-		rasterItem(workItem(args.inputs, args.full_clusters, args.batches, item, cluster_count), view);
+		uint number = is_rest ? args.left_items.at[index] : itemNumber(items, index);
+		if (is_rest || isOfPhase(items, index))
+			rasterNumbered(number, items.clusters, view);
 	}
 }

@@ -80,7 +80,7 @@ OcclusionOutcome occlusionOutcome(const FrameResult& result)
 	OcclusionOutcome outcome;
 	outcome.parts = result.counts.part_triangles;
 	outcome.left_out = result.counts.hidden_parts - std::min(result.counts.hidden_parts, result.counts.revealed_parts);
-	outcome.raster_ms = took("raster_micro");
+	outcome.raster_ms = took("raster_small") + took("raster_micro");
 	outcome.looking_ms = took("depth_pyramid") + took("retest_parts") + took("raster_revealed");
 	return outcome;
 }

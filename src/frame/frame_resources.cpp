@@ -123,6 +123,7 @@ Status FrameResources::refit(const PlanInput& before, const PlanInput& after)
 		buffers_.erase(std::string(list.name));
 	buffers_.erase("part_places");
 	buffers_.erase("window_seen");
+	buffers_.erase("left_items");
 	return {};
 }
 
@@ -280,7 +281,8 @@ MemoryStats FrameResources::memory() const
 	MemoryStats memory;
 	for (const auto& [name, held] : buffers_)
 	{
-		if (findList(name) || name == "heads" || name == "counts" || name == "rate_steps" || name == "part_places" || name == "window_seen")
+		if (findList(name) || name == "heads" || name == "counts" || name == "rate_steps" || name == "part_places" || name == "window_seen" ||
+			name == "left_items")
 			memory.lists += held.bytes();
 		else if (name == "picture" || name == "visibility_buffer" || name == "kept_visibility" || name == "depth_pyramid" ||
 				 name == "sun_visibility" || name == "ambient_visibility")

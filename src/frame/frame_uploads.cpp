@@ -319,6 +319,8 @@ Status FrameResources::make(std::string_view name, const PlanInput& input)
 		return allocate(name, uint64_t(capacities_[LIST_PART_TRIANGLES]) * sizeof(PartPlace));
 	if (name == "window_seen")
 		return allocate(name, (uint64_t(capacities_[LIST_PART_TRIANGLES]) / BATCH_WINDOW + 1) * sizeof(uint32_t));
+	if (name == "left_items")
+		return allocate(name, (uint64_t(capacities_[LIST_BATCHES]) + capacities_[LIST_FULL_CLUSTERS]) * sizeof(uint32_t));
 	if (name == "frame_history")
 		return allocate(name, sizeof(FrameHistory));
 	if (name == "depth_pyramid")

@@ -180,6 +180,8 @@ uint64_t bytesOfLists(const std::array<uint32_t, LIST_COUNT>& capacities, const 
 	if (tessellates)
 		bytes += kMostRateSteps * sizeof(RateStep) + uint64_t(capacities[LIST_PART_TRIANGLES]) * sizeof(PartPlace) + 16 +
 				 (uint64_t(capacities[LIST_PART_TRIANGLES]) / BATCH_WINDOW + 1) * sizeof(uint32_t) + 16;
+	if (tessellates && usesSoft(input) && input.device.small_first)
+		bytes += (uint64_t(capacities[LIST_BATCHES]) + capacities[LIST_FULL_CLUSTERS]) * sizeof(uint32_t) + 16;
 	return bytes;
 }
 

@@ -115,7 +115,7 @@ uint32_t workgroupThreads(const Device& device, const PassDesc& pass)
 		return device.limits.compute_workgroup_threads;
 	if (device.is_cpu)
 		return 32;
-	if (shader == "raster/raster_micro.comp")
+	if (shader == "raster/raster_micro.comp" || shader == "raster/raster_small.comp")
 		return 256;
 	return shader == "tessellation/triangle_split.comp" ? 128 : 64;
 }

@@ -137,6 +137,10 @@ constexpr ResourceDesc kResources[] = {
 		  return (ofList<LIST_PART_TRIANGLES>(input) / sizeof(DomainTriangle) / BATCH_WINDOW + 1) * sizeof(uint32_t);
 	  } },
 	{ "batches", "list", ofList<LIST_BATCHES> },
+	{ "left_items", "list",
+	  [](const PlanInput& input) -> uint64_t {
+		  return (ofList<LIST_BATCHES>(input) / sizeof(Batch) + ofList<LIST_FULL_CLUSTERS>(input) / sizeof(FullCluster)) * sizeof(uint32_t);
+	  } },
 	{ "micro_vertices", "list", ofList<LIST_MICRO_VERTICES> },
 	{ "expanded_triangles", "list", ofList<LIST_EXPANDED_TRIANGLES> },
 	{ "indexed_draw", "buffer", fixedBytes<20> },

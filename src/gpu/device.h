@@ -33,6 +33,7 @@ struct DeviceLimits
 	uint32_t max_image_extent = 0;
 	uint64_t max_buffer_bytes = 0;               // drivers crash beyond it
 	uint32_t loop_workgroups = 0;                // workgroups of a dispatch whose threads loop over a list
+	bool small_first = true;                     // triangles that one lane rasterises have a kernel of their own; not on a processor
 	uint64_t most_footprint_bytes = 256u << 20;  // of height maps kept as footprints (frame/height_footprints.h); more: as texels
 	uint32_t compute_workgroup_threads = 0;      // of every pass that takes it as a constant; 0: each pass's own
 	// Of acceleration structures and ray tracing pipelines; 0 where the device has none.

@@ -160,6 +160,7 @@ void describeDevice(Device& device)
 	limits.shader_group_handle_bytes = rays.shaderGroupHandleSize;
 	limits.shader_group_alignment = std::max(rays.shaderGroupBaseAlignment, rays.shaderGroupHandleAlignment);
 	// Enough workgroups to fill any GPU; a processor needs only some per core.
+	limits.small_first = !device.is_cpu;
 	limits.loop_workgroups = device.is_cpu ? 64 : 4096;
 	if (mesh.maxMeshWorkGroupInvocations > 0)
 	{

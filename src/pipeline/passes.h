@@ -16,6 +16,7 @@ extern const PassDesc kRateSearch;
 extern const PassDesc kBatchParts;
 extern const PassDesc kRateFit;
 extern const PassDesc kEvaluateVertices;
+extern const PassDesc kRasterSmall;
 extern const PassDesc kRasterMicro;
 extern const PassDesc kBuildGeometry;
 extern const PassDesc kPlaceInstances;

@@ -38,6 +38,7 @@ std::vector<Feature> shaderFeatures(const PlanInput& input)
 		feature("HAS_WRAP_MIRROR", 20, input.scene.has_wrap_mirror, "no height map repeats mirrored"),
 		feature("HAS_MANY_HEIGHT_MAPS", 21, input.sizes.height_maps > UNIFORM_HEIGHT_MAPS, "the height maps fit into a uniform buffer"),
 		conditional("HAS_HEIGHT_FOOTPRINTS", 40, kHeightFootprints),
+		conditional("SMALL_FIRST", 41, kSmallFirst),
 		conditional("HAS_OCCLUSION", 23, kMayHide),
 		conditional("HAS_RAYS", 24, kRays),
 		conditional("KEEPS_PLACES", 27, kKeepsPlaces),

@@ -59,6 +59,8 @@ public:
 			device.limits.loop_workgroups = variation.loop_workgroups;
 		if (variation.height_texels)
 			device.limits.most_footprint_bytes = 0;
+		if (variation.other_kernels)
+			device.limits.small_first = !device.limits.small_first;
 	}
 	~OtherLimits() { device_.limits = before_; }
 	OtherLimits(const OtherLimits&) = delete;

@@ -23,6 +23,7 @@ struct Variation
 	uint32_t compute_threads = 0;  // 0: as usual
 	uint32_t mesh_threads = 0, loop_workgroups = 0;
 	bool height_texels = false;  // height maps as texels, not as footprints
+	bool other_kernels = false;  // small triangles in a kernel of their own where they have none, or none where they have
 };
 
 class FrameSource

@@ -111,14 +111,15 @@ private:
 			TRY_ASSIGN(sources.culled, source(device, given(), request_.options, path, rate, false, {}));
 		}
 		const RenderOptions roomy = withOtherCapacities(uncut, *request_.scene, device);
-		const Variation other_groups = { "other workgroup sizes, height maps as texels",
+		const Variation other_groups = { "other workgroup sizes and kernels, height maps as texels",
 										 false,
 										 device.is_cpu ? 64u : 128u,
 										 device.limits.mesh_workgroup_threads == 32 ? 64u : 32u,
 										 std::max(1u, device.limits.loop_workgroups / 3),
+										 true,
 										 true };
 		Variation everything = other_groups;
-		everything.name = "other capacities and workgroup sizes, height maps as texels, shuffled";
+		everything.name = "other capacities, workgroup sizes and kernels, height maps as texels, shuffled";
 		everything.shuffled = true;
 		std::vector<std::pair<RenderOptions, Variation>> ways = { { roomy, everything } };
 		if (!request_.one_variation)

@@ -94,6 +94,7 @@ struct HostLayout
 #define FIELDS_14(T, a, ...) FIELD(T, a), FIELDS_13(T, __VA_ARGS__)
 #define FIELDS_15(T, a, ...) FIELD(T, a), FIELDS_14(T, __VA_ARGS__)
 #define FIELDS_16(T, a, ...) FIELD(T, a), FIELDS_15(T, __VA_ARGS__)
+#define FIELDS_17(T, a, ...) FIELD(T, a), FIELDS_16(T, __VA_ARGS__)
 #define LAYOUT(count, T, ...)              \
 	HostLayout                             \
 	{                                      \
@@ -131,8 +132,8 @@ std::vector<HostLayout> hostLayouts()
 		LAYOUT(13, Surface, positions, directions, uvs, densities, triangles, first_seam_edges, seam_edges, seam_corner_indices, seam_corners,
 			   material_height_maps, height_maps, triangle_details, edge_roughness),
 		LAYOUT(8, ListHead, group_width, group_rows, group_depth, wanted, capacity, peak, peak_used, unused),
-		LAYOUT(16, FrameCounts, overflow, covered_pixels, micro_low, micro_high, full_cluster_triangles, expanded_triangles, rate_step, listed_again,
-			   levels_missing, search_finished, second_batches, hidden_parts, revealed_parts, dump_vertices, dump_triangles, split_count),
+		LAYOUT(17, FrameCounts, overflow, covered_pixels, micro_low, micro_high, full_cluster_triangles, expanded_triangles, rate_step, listed_again,
+			   levels_missing, search_finished, second_batches, hidden_parts, revealed_parts, dump_vertices, dump_triangles, left_items, split_count),
 		LAYOUT(11, RateStep, rate_over_focal_squared, sample_over_focal_squared, rule, split_triangles, part_triangles, part_vertices,
 			   part_micro_triangles, full_clusters, full_vertices, full_micro_triangles, abandoned),
 		LAYOUT(3, ClusterGroup, instance, first_cluster, cluster_count),
