@@ -8,34 +8,34 @@
 #include "shared/bounds.h"
 #include "shared/surface.h"
 
-const uint OCCLUSION_TEXELS = 3u;  // most texels along a side of the box on screen that are read
+const uint OCCLUSION_TEXELS = 3u;  // along a side of the box on screen that are read
 
 vec3 inView(vec3 vector, View view) { return vec3(dot(view.right, vector), dot(view.up, vector), dot(view.forward, vector)); }
 
-float farthestSeen(floatRef pyramid, uvec2 low, uvec2 high, uint level, View view)
+// The least of three texels a side; of fewer, some twice: that is cheaper than loops that end at different times.
+float farthestSeen(floatRef pyramid, uvec2 first, uvec2 last, uint level, View view)
 {
 	uint width = pyramidSide(view.width_px, level);
-	uint first = pyramidFirst(view.width_px, view.height_px, level);
+	uvec2 low = first >> level, high = last >> level, middle = min(low + 1u, high);
+	uvec3 rows = pyramidFirst(view.width_px, view.height_px, level) + uvec3(low.y, middle.y, high.y) * width;
 	float farthest = 1e38;
-	for (uint y = low.y >> level; y <= high.y >> level; ++y)
-		for (uint x = low.x >> level; x <= high.x >> level; ++x)
-			farthest = min(farthest, pyramid.at[first + y * width + x]);
+	for (uint y = 0u; y < OCCLUSION_TEXELS; ++y)
+	{
+		float left = pyramid.at[rows[y] + low.x], centre = pyramid.at[rows[y] + middle.x], right = pyramid.at[rows[y] + high.x];
+		farthest = min(farthest, min(left, min(centre, right)));
+	}
 	return farthest;
 }
 
-// Box: centre and half axes, relative to the view's eye and scaled as everything placed in that view.
-bool boxIsHidden(vec3 centre, vec3 axis0, vec3 axis1, vec3 axis2, View view, floatRef pyramid)
+// A box along the axes of the view, relative to its eye and scaled as everything placed in it.
+bool boxIsHidden(vec3 low, vec3 high, View view, floatRef pyramid)
 {
-	vec3 middle = inView(centre, view);
-	vec3 reach = abs(inView(axis0, view)) + abs(inView(axis1, view)) + abs(inView(axis2, view));
-	reach += (abs(middle) + reach) * 1e-5;
-	vec3 low = middle - reach, high = middle + reach;
 	if (!(low.z > view.near))
 		return false;
-	float near_w = low.z * view.w_slope + view.w_offset, far_w = high.z * view.w_slope + view.w_offset;
+	float near_inverse = 1.0 / (low.z * view.w_slope + view.w_offset), far_inverse = 1.0 / (high.z * view.w_slope + view.w_offset);
 	vec2 focal = vec2(view.focal_x, view.focal_y), size = vec2(view.width_px, view.height_px);
-	vec2 ndc_low = min(low.xy / near_w, low.xy / far_w) * focal;
-	vec2 ndc_high = max(high.xy / near_w, high.xy / far_w) * focal;
+	vec2 ndc_low = min(low.xy * near_inverse, low.xy * far_inverse) * focal;
+	vec2 ndc_high = max(high.xy * near_inverse, high.xy * far_inverse) * focal;
 	// Rows run downwards. A pixel more on every side: positions snap, and samples lie at centres.
 	vec2 px_low = (vec2(ndc_low.x, -ndc_high.y) * 0.5 + 0.5) * size - 1.0;
 	vec2 px_high = (vec2(ndc_high.x, -ndc_low.y) * 0.5 + 0.5) * size + 1.0;
@@ -47,8 +47,14 @@ bool boxIsHidden(vec3 centre, vec3 axis0, vec3 axis1, vec3 axis2, View view, flo
 		++level;
 	if (level == PYRAMID_LEVELS)
 		return false;
-	float nearest = (low.z * view.depth_slope + view.depth_offset) / near_w;
+	float nearest = (low.z * view.depth_slope + view.depth_offset) * near_inverse;
 	return nearest + abs(nearest) * 1e-5 < farthestSeen(pyramid, first, last, level, view);
+}
+
+// What three half axes reach along the axes of the view.
+vec3 reachInView(vec3 axis0, vec3 axis1, vec3 axis2, View view)
+{
+	return abs(inView(axis0, view)) + abs(inView(axis1, view)) + abs(inView(axis2, view));
 }
 
 bool clusterIsHidden(DisplacedBounds bounds, InstanceRecord instance, View view, floatRef pyramid)
@@ -59,15 +65,24 @@ bool clusterIsHidden(DisplacedBounds bounds, InstanceRecord instance, View view,
 	vec3 axis0 = vec3(placement.row0.x, placement.row1.x, placement.row2.x) * half_size.x;
 	vec3 axis1 = vec3(placement.row0.y, placement.row1.y, placement.row2.y) * half_size.y;
 	vec3 axis2 = vec3(placement.row0.z, placement.row1.z, placement.row2.z) * half_size.z;
-	return boxIsHidden(placed(placement, middle), axis0, axis1, axis2, view, pyramid);
+	vec3 centre = inView(placed(placement, middle), view);
+	vec3 reach = reachInView(axis0, axis1, axis2, view);
+	reach += (abs(centre) + reach) * 1e-5;
+	return boxIsHidden(centre - reach, centre + reach, view, pyramid);
 }
 
 // The displaced piece with undisplaced corners p, q, r, mesh units.
 bool pieceIsHidden(vec3 p, vec3 q, vec3 r, DisplacedBounds bounds, InstanceRecord instance, View view, floatRef pyramid)
 {
 	Placement placement = placementOf(instance, view);
-	PieceBox box = pieceBox(placed(placement, p), placed(placement, q), placed(placement, r), placedReach(bounds, placement, view));
-	return boxIsHidden(box.centre, vec3(box.half_size.x, 0.0, 0.0), vec3(0.0, box.half_size.y, 0.0), vec3(0.0, 0.0, box.half_size.z), view, pyramid);
+	PlacedReach reach = placedReach(bounds, placement, view);
+	vec3 a = inView(placed(placement, p), view), b = inView(placed(placement, q), view), c = inView(placed(placement, r), view);
+	vec3 middle = inView(reach.centre, view);
+	// The slack is along an axis of the world: along one of the view it is up to root 3 times that.
+	vec3 extent = reachInView(reach.axis0, reach.axis1, reach.axis2, view) + reach.slack * 1.75;
+	vec3 low = min(a, min(b, c)) + middle - extent, high = max(a, max(b, c)) + middle + extent;
+	vec3 rounding = max(abs(low), abs(high)) * 1e-5;
+	return boxIsHidden(low - rounding, high + rounding, view, pyramid);
 }
 
 bool wasHidden(DisplacedBounds bounds, InstanceRecord instance)

@@ -1,5 +1,4 @@
-// A rasteriser in compute: a lane per small triangle. lib/soft_raster_large.glsl takes what is not small; whoever includes this keeps the
-// vertices.
+// A rasteriser in compute: vertices in shared memory, a lane per small triangle. lib/soft_raster_large.glsl takes what is not small.
 //
 // Positions snap to 1/256 pixel, edge functions are exact integers and the top-left rule decides ties, so neighbours leave
 // no gap and cover no pixel twice. Depth and payload go into one 64-bit word per pixel by atomicMax: reverse z, nearer is
@@ -20,6 +19,11 @@ struct ScreenVertex
 	ivec2 position;  // 1/256 pixels, y down
 	float depth;
 };
+
+// What is shared decides how many workgroups are resident, so vertices are held once and in three words: screen position and depth.
+const uint MAX_RASTER_VERTICES = RASTER_BATCH_VERTICES;
+shared uint raster_vertices[3u * MAX_RASTER_VERTICES];  // words: vectors of three would take four
+shared uint raster_has_outside;                         // 1: a vertex lies outside the guard band, and was not stored
 
 // 1 / w by a bit-trick start and Newton steps: the same bits in every shader, so neighbours in different passes agree.
 precise float exactReciprocal(float w)
@@ -49,6 +53,32 @@ ScreenVertex toScreen(vec4 clip, View view)
 	precise float y_subpixels = y * view.height_subpixels;
 	precise float depth = clip.z * inverse;
 	return ScreenVertex(ivec2(floor(vec2(x_subpixels, y_subpixels) + 0.5)), depth);
+}
+
+void keepVertex(uint index, uvec3 words)
+{
+	raster_vertices[3u * index] = words.x;
+	raster_vertices[3u * index + 1u] = words.y;
+	raster_vertices[3u * index + 2u] = words.z;
+}
+
+uvec3 keptVertex(uint index) { return uvec3(raster_vertices[3u * index], raster_vertices[3u * index + 1u], raster_vertices[3u * index + 2u]); }
+
+void storeScreenVertex(uint index, vec4 clip, View view)
+{
+	if (insideGuard(clip, view))
+	{
+		ScreenVertex screen = toScreen(clip, view);
+		keepVertex(index, uvec3(uvec2(screen.position), floatBitsToUint(screen.depth)));
+	}
+	else
+		raster_has_outside = 1u;
+}
+
+ScreenVertex keptScreenVertex(uint index)
+{
+	uvec3 stored = keptVertex(index);
+	return ScreenVertex(ivec2(stored.xy), uintBitsToFloat(stored.z));
 }
 
 void writeVisibility(VisibilityRef target, ivec2 pixel, float depth, uint payload, View view)

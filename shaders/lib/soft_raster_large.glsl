@@ -5,13 +5,10 @@
 #define TESSERA_LIB_SOFT_RASTER_LARGE
 #include "lib/soft_raster.glsl"
 
-const uint MAX_RASTER_VERTICES = RASTER_BATCH_VERTICES;
 const uint MAX_RASTER_TRIANGLES = RASTER_BATCH_TRIANGLES;
 
-// What is shared decides how many workgroups are resident, so vertices are held once and in three words: screen position and depth. Where a vertex lies outside the guard band, which is rare, all are stored again as they are before projection (clip x and y, depth along
+// Where a vertex lies outside the guard band, which is rare, all are stored again as they are before projection (clip x and y, depth along
 // the view), and every triangle places its corners itself.
-shared uint raster_vertices[3u * MAX_RASTER_VERTICES];  // words: vectors of three would take four
-shared uint raster_has_outside;                         // 1: a vertex lies outside the guard band
 shared uint raster_wide[MAX_RASTER_TRIANGLES / 32u];  // bits: triangles that one lane left to all
 shared uint raster_any_wide;                          // 1: there are some
 shared vec4 raster_polygon[2][9];
@@ -29,28 +26,14 @@ void beginRaster()
 	}
 }
 
-void keepVertex(uint index, uvec3 words)
-{
-	raster_vertices[3u * index] = words.x;
-	raster_vertices[3u * index + 1u] = words.y;
-	raster_vertices[3u * index + 2u] = words.z;
-}
-
-uvec3 keptVertex(uint index) { return uvec3(raster_vertices[3u * index], raster_vertices[3u * index + 1u], raster_vertices[3u * index + 2u]); }
-
 // `relative`: to the eye, scaled. `projects`: first time; else the vertices are kept as they are before projection.
 void storeRasterVertex(uint index, vec3 relative, bool projects, View view)
 {
 	vec4 clip = clipPosition(relative, view);
-	if (!projects)
-		keepVertex(index, floatBitsToUint(vec3(clip.xy, viewDepth(relative, view))));
-	else if (insideGuard(clip, view))
-	{
-		ScreenVertex screen = toScreen(clip, view);
-		keepVertex(index, uvec3(uvec2(screen.position), floatBitsToUint(screen.depth)));
-	}
+	if (projects)
+		storeScreenVertex(index, clip, view);
 	else
-		raster_has_outside = 1u;
+		keepVertex(index, floatBitsToUint(vec3(clip.xy, viewDepth(relative, view))));
 }
 
 vec4 clipVertex(uint index)
@@ -62,10 +45,7 @@ vec4 clipVertex(uint index)
 // A vertex that is inside the guard band. `projected`, here and below: no vertex of the item lies outside it, so that all are kept projected.
 ScreenVertex screenVertex(uint index, bool projected, View view)
 {
-	if (!projected)
-		return toScreen(clipVertex(index), view);
-	uvec3 stored = keptVertex(index);
-	return ScreenVertex(ivec2(stored.xy), uintBitsToFloat(stored.z));
+	return projected ? keptScreenVertex(index) : toScreen(clipVertex(index), view);
 }
 
 bool allInside(uvec3 corners, bool projected, View view)
