@@ -109,10 +109,10 @@ void addStep(const Settings& settings, std::string_view series, std::array<uint3
 constexpr std::array<uint32_t, 2> kFullHd = { 1920, 1080 }, kSmall = { 640, 360 };
 constexpr float kSweepRate = 3.46f;
 
-// At 1920x1080 the terrain gives about 2.2 million micro-triangles / rate^2: half decades from 1e4 to 1e8.
+// At 1920x1080 the terrain gives about 2.2 million micro-triangles / rate^2: half decades from 1e4 to 1e9.
 void addTriangleSweep(const Settings& settings, std::vector<Case>& cases)
 {
-	const int steps = settings.quick ? 3 : 9;
+	const int steps = settings.quick ? 3 : 11;
 	const double first_rate = settings.quick ? 14.0 / 3 : 14.0;
 	for (int i = 0; i < steps; ++i)
 	{
@@ -150,6 +150,19 @@ void addInstanceSweep(const Settings& settings, std::vector<Case>& cases)
 			row.copies = count;
 		};
 		addStep(settings, "instances", settings.quick ? kSmall : kFullHd, kSweepRate, aim, cases);
+	}
+}
+
+// A denser and denser mesh of the same terrain: half decades from 1e3 base triangles on. From 1e6 on most have one segment per edge.
+void addBaseSweep(const Settings& settings, std::vector<Case>& cases)
+{
+	for (const uint32_t quads : settings.quick ? std::vector<uint32_t>{ 22, 71, 224 } : std::vector<uint32_t>{ 22, 71, 224, 707, 2236 })
+	{
+		const auto aim = [quads](Case& row) {
+			row.scene = row.path = fmt::format("builtin:terrain:{}", quads);
+			row.base_triangles = 2ull * quads * quads;
+		};
+		addStep(settings, "base", settings.quick ? kSmall : kFullHd, kSweepRate, aim, cases);
 	}
 }
 
@@ -199,6 +212,8 @@ std::vector<Case> scalingCases(const Settings& settings)
 			addTriangleSweep(settings, cases);
 		else if (name == "rays")
 			addRaySweep(settings, cases);
+		else if (name == "base")
+			addBaseSweep(settings, cases);
 		else if (name == "instances")
 			addInstanceSweep(settings, cases);
 		else

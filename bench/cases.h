@@ -11,10 +11,11 @@ inline constexpr std::string_view kTableSeries = "table";
 struct Case
 {
 	std::string series;
-	std::string scene;    // "sphere", "builtin:instances"
-	uint64_t copies = 1;  // instances of it
-	std::string path;     // what loadScene takes; files relative to the folder of the scenes
-	std::string raster;   // name of --raster
+	std::string scene;            // "sphere", "builtin:instances"
+	uint64_t copies = 1;          // instances of it
+	uint64_t base_triangles = 0;  // of one, where the sweep is over them
+	std::string path;             // what loadScene takes; files relative to the folder of the scenes
+	std::string raster;           // name of --raster
 	bool cull = false;
 	AppOptions options;  // everything the frame is drawn with
 

@@ -189,13 +189,19 @@ double toMib(uint64_t bytes)
 
 std::string_view unitOf(std::string_view series)
 {
-	return series == "triangles" || series == "rays" ? "micro-triangle" : series == "instances" ? "instance" : series == "size" ? "pixel" : "";
+	return series == "triangles" || series == "rays" ? "micro-triangle"
+		   : series == "base"                        ? "base triangle"
+		   : series == "instances"                   ? "instance"
+		   : series == "size"                        ? "pixel"
+													 : "";
 }
 
 double unitCount(const Row& row)
 {
 	if (unitOf(row.what.series) == "micro-triangle")
 		return double(countsOf(row).micro_triangles);
+	if (row.what.series == "base")
+		return double(row.what.base_triangles);
 	if (row.what.series == "instances")
 		return double(row.what.copies);
 	return double(row.what.options.width_px) * row.what.options.height_px;

@@ -33,7 +33,7 @@ struct Row
 
 double toMib(uint64_t bytes);
 
-// What a sweep counts: "micro-triangle", "instance" or "pixel"; empty for the table.
+// What a sweep counts: "micro-triangle", "base triangle", "instance" or "pixel"; empty for the table.
 std::string_view unitOf(std::string_view series);
 double unitCount(const Row& row);
 void addUnitCosts(std::vector<Row>& rows);

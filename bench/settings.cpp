@@ -11,7 +11,7 @@ namespace tessera::bench
 namespace
 {
 
-constexpr std::string_view kScalingNames[] = { "triangles", "instances", "size", "rays" };
+constexpr std::string_view kScalingNames[] = { "triangles", "base", "instances", "size", "rays" };
 
 // Shared options that the bench sets itself, row by row.
 constexpr std::string_view kSwept[] = {
@@ -142,7 +142,7 @@ constexpr BenchOption kOptions[] = {
 	{ "sizes", "LIST", "pictures (default 1920x1080,3840x2160)", parseSizes },
 	{ "raster", "LIST", "who finds visibility (default all)", parseRasters },
 	{ "cull", "on|off|both", "culling (default both)", parseCull },
-	{ "scaling", "[LIST]", "instead of the table: time against some of triangles,instances,size,rays, each a table of its own", parseScaling },
+	{ "scaling", "[LIST]", "instead of the table: time against some of triangles,base,instances,size,rays, each a table of its own", parseScaling },
 	{ "row-seconds", "SECONDS", "a row that takes longer stops at the frames it has (default 30)", parseRowSeconds },
 	{ "quick", "", "for slow devices: 640x360, rates 6.93 and 1.73, 8 frames after 2", parseQuick },
 };

@@ -161,13 +161,13 @@ TEST(benchCases, sweepsGrowTheirUnit)
 		++counts[one.series];
 		if (before && before->series == one.series)
 		{
-			const bool grows =
-				one.options.rate < before->options.rate || one.copies > before->copies || one.options.height_px > before->options.height_px;
+			const bool grows = one.options.rate < before->options.rate || one.copies > before->copies ||
+							   one.options.height_px > before->options.height_px || one.base_triangles > before->base_triangles;
 			EXPECT_TRUE(grows) << one.label();
 		}
 		before = &one;
 	}
-	EXPECT_EQ(counts, (std::map<std::string, size_t>{ { "triangles", 9 }, { "instances", 7 }, { "size", 5 } }));
+	EXPECT_EQ(counts, (std::map<std::string, size_t>{ { "triangles", 11 }, { "base", 5 }, { "instances", 7 }, { "size", 5 } }));
 }
 
 TEST(benchSettings, quickSetsWhatLaterOptionsMayChange)

@@ -18,7 +18,7 @@ struct Generator
 static constexpr std::array kGenerators = {
 	Generator{ { "planet", "a small world: seas, mountain ranges and ice on a closed sphere of 4,800 triangles" }, builtin::makePlanet },
 	Generator{ { "showcase", "the planet with a cratered moon and a ring of boulders (count: boulders)", 900 }, builtin::makeShowcase },
-	Generator{ { "terrain", "an eroded mountain valley of 32 x 32 quads" }, builtin::makeTerrain },
+	Generator{ { "terrain", "an eroded mountain valley of 32 x 32 quads (count: quads along a side)", 32, 8192 }, builtin::makeTerrain },
 	Generator{ { "bricks", "a brick gate with columns on cobblestones: hard edges, two height maps" }, builtin::makeBricks },
 	Generator{ { "instances", "a field of boulders that share one mesh (count: boulders)", 1024 }, builtin::makeInstances },
 	Generator{ { "quad", "two triangles and a small height map" }, builtin::makeQuad },
@@ -38,12 +38,12 @@ std::span<const BuiltinScene> builtinScenes()
 	return kScenes;
 }
 
-static Result<uint32_t> parseCount(std::string_view name, std::string_view text)
+static Result<uint32_t> parseCount(std::string_view name, std::string_view text, uint32_t most)
 {
 	uint32_t count = 0;
 	const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), count);
-	if (code != std::errc() || end != text.data() + text.size() || count < 1 || count > 1'000'000)
-		return badInput("builtin:{}: the count '{}' is not a number from 1 to 1000000", name, text);
+	if (code != std::errc() || end != text.data() + text.size() || count < 1 || count > most)
+		return badInput("builtin:{}: the count '{}' is not a number from 1 to {}", name, text, most);
 	return count;
 }
 
@@ -71,7 +71,7 @@ Result<ImportedScene> makeBuiltinScene(std::string_view name)
 		{
 			if (count == 0)
 				return badInput("builtin:{}: this scene takes no count, say builtin:{}", name, stem);
-			TRY_ASSIGN(count, parseCount(name, name.substr(colon + 1)));
+			TRY_ASSIGN(count, parseCount(name, name.substr(colon + 1), generator.scene.most_count));
 		}
 		ImportedScene scene = generator.make(count);
 		scene.path = std::string(kPrefix) + std::string(name);

@@ -42,7 +42,7 @@ static vec3 groundColor(vec2 uv, float height, float steepness)
 	return glm::mix(vec3(0.62f, 0.56f, 0.42f), color, smoothStep(0.002f, 0.009f, height));
 }
 
-ImportedScene makeTerrain(uint32_t)
+ImportedScene makeTerrain(uint32_t quads)
 {
 	HeightField ground(kTexels, kTexels);
 	forEachTexel(kTexels, kTexels,
@@ -66,7 +66,7 @@ ImportedScene makeTerrain(uint32_t)
 	scene.materials.push_back(displacedMaterial("terrain", color_texture, height_texture, kRelief, 0, 0.9f));
 	Primitive grid;
 	// Top of the map is far away (-z).
-	addGrid(grid, { -kSide / 2, 0, kSide / 2 }, { kSide, 0, 0 }, { 0, 0, -kSide }, 32, 32, { 0, 1 }, { 1, 0 });
+	addGrid(grid, { -kSide / 2, 0, kSide / 2 }, { kSide, 0, 0 }, { 0, 0, -kSide }, quads, quads, { 0, 1 }, { 1, 0 });
 	scene.instances.push_back({ addMesh(scene, "terrain", { std::move(grid) }), dmat4(1) });
 	scene.cameras.push_back(lookAtCamera({ -0.1, 1.55, 4.6 }, { 0.15, 0.85, 0 }, 52));
 	return scene;
