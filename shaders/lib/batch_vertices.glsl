@@ -78,11 +78,13 @@ void loadPartCorner(RasterInputs inputs, uint part, uint corner)
 	uint vertex = corner == 0u ? base.v0 : (corner == 1u ? base.v1 : base.v2);
 	uint slot = 3u * part + corner;
 	part_points[slot].xyz = frame_surface.positions.at[vertex];
+	if (HAS_DISPLACEMENT || HAS_PN)
+		part_directions[slot].xyz = frame_surface.directions.at[vertex];
 	if (HAS_DISPLACEMENT)
 	{
 		vec2 uv = frame_surface.uvs.at[vertex];
 		part_points[slot].w = frame_surface.densities.at[vertex];
-		part_directions[slot] = vec4(frame_surface.directions.at[vertex], uv.x);
+		part_directions[slot].w = uv.x;
 		part_v[slot] = uv.y;
 	}
 	loadPlacementRow(inputs.instances.at[part_instances[part]], part, corner);
@@ -114,12 +116,18 @@ TriangleCorners partCorners(uint part)
 	corners.position0 = p0.xyz;
 	corners.position1 = p1.xyz;
 	corners.position2 = p2.xyz;
-	if (HAS_DISPLACEMENT)
+	vec4 d0, d1, d2;
+	if (HAS_DISPLACEMENT || HAS_PN)
 	{
-		vec4 d0 = part_directions[first], d1 = part_directions[first + 1u], d2 = part_directions[first + 2u];
+		d0 = part_directions[first];
+		d1 = part_directions[first + 1u];
+		d2 = part_directions[first + 2u];
 		corners.direction0 = d0.xyz;
 		corners.direction1 = d1.xyz;
 		corners.direction2 = d2.xyz;
+	}
+	if (HAS_DISPLACEMENT)
+	{
 		corners.uv0 = vec2(d0.w, part_v[first]);
 		corners.uv1 = vec2(d1.w, part_v[first + 1u]);
 		corners.uv2 = vec2(d2.w, part_v[first + 2u]);

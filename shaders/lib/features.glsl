@@ -27,6 +27,7 @@ layout(constant_id = 22) const bool DIRECTIONS_ARE_NORMALS = false;
 layout(constant_id = 23) const bool HAS_OCCLUSION = true;
 layout(constant_id = 41) const bool SMALL_FIRST = false;
 layout(constant_id = 40) const bool HAS_HEIGHT_FOOTPRINTS = false;
+layout(constant_id = 28) const bool HAS_PN = true;
 layout(constant_id = 30) const bool HAS_DETAIL = true;
 layout(constant_id = 31) const bool HAS_DISPLACED_EDGES = true;
 layout(constant_id = 14) const bool READS_BUFFER = true;

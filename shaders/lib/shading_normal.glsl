@@ -2,6 +2,7 @@
 // Source: Mikkelsen, Bump Mapping Unparametrized Surfaces on the GPU (2010), with the height's gradient in the domain.
 #ifndef TESSERA_LIB_SHADING_NORMAL
 #define TESSERA_LIB_SHADING_NORMAL
+#include "lib/pn_shading.glsl"
 #include "shared/surface.h"
 
 // Mip level whose texels are about one pixel wide at a point: normals show what the height map holds, not the rate.
@@ -82,29 +83,37 @@ struct ShadingSurface
 	float displacement;  // mesh units
 };
 
-// `weights`: barycentrics within the base triangle. `smooth_normal`: interpolated authored normal, mesh space.
-ShadingSurface displacedNormal(Surface surface, BaseTriangle base, vec3 weights, vec3 smooth_normal, Placement placement, View view)
+// `weights`: barycentrics within the base triangle. `normals`: authored, of its corners, mesh space.
+ShadingSurface displacedNormal(Surface surface, BaseTriangle base, vec3 weights, vec3 normals[3], Placement placement, View view)
 {
+	TriangleCorners corners;
+	if (HAS_PN || (HAS_DISPLACEMENT && base.height_map != NO_INDEX))
+		corners = triangleCorners(surface, base);
+	vec3 smooth_normal = authoredNormal(corners, normals, weights);
 	ShadingSurface result = ShadingSurface(smooth_normal, 0.0);
 	if (!HAS_DISPLACEMENT || base.height_map == NO_INDEX)
 		return result;
-	vec3 p0 = surface.positions.at[base.v0], p1 = surface.positions.at[base.v1], p2 = surface.positions.at[base.v2];
-	vec3 d0 = surface.directions.at[base.v0], d1 = surface.directions.at[base.v1], d2 = surface.directions.at[base.v2];
-	vec2 uv0 = surface.uvs.at[base.v0], uv1 = surface.uvs.at[base.v1], uv2 = surface.uvs.at[base.v2];
-	HeightSource source = ownHeightSource(triangleCorners(surface, base), base.height_map, weights);
-	vec3 base_point = weightedVec3(p0, p1, p2, weights);
+	HeightSource source = ownHeightSource(corners, base.height_map, weights);
+	vec3 base_point = basePoint(surface, corners, weights);
 
 	uint level_count = HEIGHT_MAP(surface, base.height_map, level_count);
 	float level = pixelHeightLevel(placed(placement, base_point), placement, source.density, level_count, view);
 	HeightSlope height = displacementSlope(surface, base.height_map, source.uv, level);
 	result.displacement = height.height * view.displacement_scale;
 	vec2 gradient = height.slope * view.displacement_scale;
-	float slope_u = dot(gradient, uv0 - uv2);
-	float slope_v = dot(gradient, uv1 - uv2);
+	float slope_u = dot(gradient, corners.uv0 - corners.uv2);
+	float slope_v = dot(gradient, corners.uv1 - corners.uv2);
 
 	// Tangents of the surface moved out by the height, before the height itself changes.
-	vec3 tangent_u = p0 - p2 + (d0 - d2) * result.displacement;
-	vec3 tangent_v = p1 - p2 + (d1 - d2) * result.displacement;
+	vec3 d0 = corners.direction0, d1 = corners.direction1, d2 = corners.direction2;
+	vec3 tangent_u = corners.position0 - corners.position2 + (d0 - d2) * result.displacement;
+	vec3 tangent_v = corners.position1 - corners.position2 + (d1 - d2) * result.displacement;
+	if (HAS_PN)
+	{
+		PnMoves moves = pnMoves(cornerRises(corners), weights);
+		tangent_u -= d0 * moves.by_u.x + d1 * moves.by_u.y + d2 * moves.by_u.z;
+		tangent_v -= d0 * moves.by_v.x + d1 * moves.by_v.y + d2 * moves.by_v.z;
+	}
 	vec3 normal = normalize(smooth_normal);
 	result.normal = turnedNormal(normal, tangent_u, tangent_v, normal, slope_u, slope_v);
 	return result;

@@ -75,9 +75,8 @@ vec3 normalOf(DumpSource source)
 		return vec3(0.0);
 	ShadingData shading = args.shading.at[0];
 	vec3 weights = domainWeights(source.point);
-	vec3 authored = shading.normals.at[source.base.v0] * weights.x + shading.normals.at[source.base.v1] * weights.y +
-	                shading.normals.at[source.base.v2] * weights.z;
-	return displacedNormal(frame_surface, source.base, weights, authored, source.placement, frame_view).normal;
+	vec3 normals[3] = vec3[3](shading.normals.at[source.base.v0], shading.normals.at[source.base.v1], shading.normals.at[source.base.v2]);
+	return displacedNormal(frame_surface, source.base, weights, normals, source.placement, frame_view).normal;
 }
 
 DumpVertex dumpVertex(WorkItem item, uint index)

@@ -76,9 +76,8 @@ vec3 smoothNormal(inout SurfacePixel pixel, View view)
 {
 	BaseTriangle base = pixel.visible.base;
 	// Read once, as directions, where they are the same.
-	bool as_directions = HAS_DISPLACEMENT && DIRECTIONS_ARE_NORMALS;
-	vec3Ref normals = as_directions ? frame_surface.directions : args.shading.at[0].normals;
-	vec3 authored = normals.at[base.v0] * pixel.weights.x + normals.at[base.v1] * pixel.weights.y + normals.at[base.v2] * pixel.weights.z;
+	vec3Ref normals = HAS_DIRECTIONS && DIRECTIONS_ARE_NORMALS ? frame_surface.directions : args.shading.at[0].normals;
+	vec3 authored[3] = vec3[3](normals.at[base.v0], normals.at[base.v1], normals.at[base.v2]);
 	ShadingSurface surface = displacedNormal(frame_surface, base, pixel.weights, authored, pixel.visible.placement, view);
 	pixel.displacement = surface.displacement;
 	return worldNormal(surface.normal, pixel.visible.placement);
@@ -90,14 +89,15 @@ vec3 smoothNormalAt(inout SurfacePixel pixel, TriangleCorners corners, SurfacePl
 	BaseTriangle base = pixel.visible.base;
 	Placement placement = pixel.visible.placement;
 	vec3 weights = pixel.weights;
-	vec3 authored;
-	if (HAS_DISPLACEMENT && DIRECTIONS_ARE_NORMALS)
-		authored = corners.direction0 * weights.x + corners.direction1 * weights.y + corners.direction2 * weights.z;
+	vec3 normals[3];
+	if (HAS_DIRECTIONS && DIRECTIONS_ARE_NORMALS)
+		normals = vec3[3](corners.direction0, corners.direction1, corners.direction2);
 	else
 	{
-		vec3Ref normals = args.shading.at[0].normals;
-		authored = normals.at[base.v0] * weights.x + normals.at[base.v1] * weights.y + normals.at[base.v2] * weights.z;
+		vec3Ref of_vertices = args.shading.at[0].normals;
+		normals = vec3[3](of_vertices.at[base.v0], of_vertices.at[base.v1], of_vertices.at[base.v2]);
 	}
+	vec3 authored = authoredNormal(corners, normals, weights);
 	vec3 normal = worldNormal(authored, placement);
 	normal = pixel.visible.mirrored != 0u ? -normal : normal;
 	if (!HAS_DISPLACEMENT || base.height_map == NO_INDEX || dot(normal, normal) == 0.0)

@@ -1,5 +1,6 @@
 // bounds.h: boxes that contain everything a displaced cluster can reach, and the test against the view's frustum.
-// Conservative: base points stay in the box of the vertices, displacement adds (direction interval) x (reach interval).
+// Conservative: base points stay in the box of the vertices (of PN triangles: of their control points), displacement adds
+// (direction interval) x (reach interval).
 // Source: DESIGN.md, contract C3.
 #ifndef TESSERA_SHARED_BOUNDS_H
 #define TESSERA_SHARED_BOUNDS_H
@@ -10,7 +11,7 @@ SHARED_BEGIN
 // Bounds of a cluster or of a whole mesh, mesh units.
 struct DisplacedBounds
 {
-	vec3 low;  // box of the undisplaced vertices
+	vec3 low;  // box of the undisplaced surface
 	vec3 high;
 	vec3 direction_low;  // interval, per axis, of every normalised interpolated displacement direction
 	vec3 direction_high;
@@ -18,9 +19,10 @@ struct DisplacedBounds
 	float reach_high;
 	vec3 cone_axis;     // normal cone of the base triangles, unit
 	float cone_cutoff;  // back-facing when dot(axis, direction from eye) >= cutoff * length; above 1: never (see scene/)
-	float unused[2];    // to a multiple of 16 bytes, so that devices read four words at once
+	float bulge;        // farthest that PN triangles lie from their flat ones; 0 without them
+	float unused;       // to a multiple of 16 bytes, so that devices read four words at once
 };
-SHARED_LAYOUT(DisplacedBounds, 80, unused, 72)
+SHARED_LAYOUT(DisplacedBounds, 80, unused, 76)
 
 // What displacement can do within a base triangle, whoever owns its edges and corners, while no mip coarser than
 // REACH_FINE_MIP or REACH_COARSE_MIP is read. Intervals as DisplacedBounds.reach_low and reach_high.
@@ -113,7 +115,7 @@ SHARED_FN bool boxMayBeVisible(Box box, Placement placement, View view)
 	return placedBoxMayBeVisible(centre, axis0, axis1, axis2, view);
 }
 
-// Everything that displacement adds to a point of a cluster, placed: a centre and three half axes; and how far a point of
+// Everything that curvature and displacement add to a flat point of a cluster, placed: a centre and three half axes; and how far a point of
 // a piece can lie outside its corners, since domain points are rounded to 2^-23 of the base triangle.
 struct PlacedReach
 {
@@ -127,8 +129,9 @@ struct PlacedReach
 SHARED_FN PlacedReach placedReach(DisplacedBounds bounds, Placement placement, View view)
 {
 	DisplacedBounds at_origin = bounds;
-	at_origin.low = vec3(0.0f, 0.0f, 0.0f);
-	at_origin.high = vec3(0.0f, 0.0f, 0.0f);
+	float bulge = HAS_PN ? bounds.bulge : 0.0f;
+	at_origin.low = vec3(-bulge, -bulge, -bulge);
+	at_origin.high = vec3(bulge, bulge, bulge);
 	Box box = displacedBox(at_origin, view.displacement_scale);
 	vec3 middle = vec3((box.low.x + box.high.x) * 0.5f, (box.low.y + box.high.y) * 0.5f, (box.low.z + box.high.z) * 0.5f);
 	vec3 half_size = vec3(box.high.x - middle.x, box.high.y - middle.y, box.high.z - middle.z);

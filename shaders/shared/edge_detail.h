@@ -111,6 +111,14 @@ SHARED_FN precise float nearestDistanceSquared(vec3 p, vec3 q, float length_squa
 	return min(max(squared, view.distance_floor_squared), ends_squared);
 }
 
+// What deviations and lengths of the tables are multiplied by, squared: the displacement scale; with PN triangles at least 1, as the scale leaves
+// the base surface's own curvature as it is.
+SHARED_FN precise float tableScaleSquared(Surface surface, View view)
+{
+	precise float squared = view.displacement_scale * view.displacement_scale;
+	return HAS_PN && IS_GIVEN(surface.pn_directions) ? max(squared, 1.0f) : squared;
+}
+
 // Share of the rate that the surface may lie off its pieces, squared. Chosen by measurement: docs/numerics.md.
 #define DETAIL_TOLERANCE_SQUARED 0.25f
 
@@ -122,18 +130,18 @@ SHARED_FN EdgeView edgeByDetail(EdgeView edge, Surface surface, EdgeBase base, D
 	EdgeView result = edge;
 	uint domain_length = domainLength(p, q);
 	// Flat pieces of a flat surface are the surface.
-	if (!HAS_DISPLACEMENT)
+	bool is_flat = !HAS_DISPLACEMENT && !HAS_PN;
+	if (is_flat)
 		result.unit_squared = uintBitsToFloat(0x7f800000u);
-	if (!HAS_DISPLACEMENT || domain_length == 0u)
+	if (is_flat || domain_length == 0u)
 		return result;
 	precise float ends_squared = min(rateDistanceSquared(relative_p, view), rateDistanceSquared(relative_q, view));
 	precise float distance_squared = nearestDistanceSquared(relative_p, relative_q, edge.length_squared, ends_squared, view);
 	precise float segment_squared = distance_squared * view.rate_over_focal_squared;
 	precise float tolerance_squared = segment_squared * DETAIL_TOLERANCE_SQUARED;
 	precise float mesh_tolerance_squared = tolerance_squared * base.inverse_scale_squared;
-	precise float scale_squared = view.displacement_scale * view.displacement_scale;
-	int tolerance =
-		((logOf(mesh_tolerance_squared) - logOf(scale_squared)) >> 1) - AT(TriangleDetail, surface.triangle_details, base.triangle).bias * CURVE_STEP;
+	int tolerance = ((logOf(mesh_tolerance_squared) - logOf(tableScaleSquared(surface, view))) >> 1) -
+					AT(TriangleDetail, surface.triangle_details, base.triangle).bias * CURVE_STEP;
 	int bounded = tolerance < -LOG_NEVER ? -LOG_NEVER : (tolerance > LOG_NEVER ? LOG_NEVER : tolerance);
 	uint first = 2u * baseEdgeOf(p, q);
 	uint low = AT(TriangleDetail, surface.triangle_details, base.triangle).curves[first];
@@ -145,7 +153,7 @@ SHARED_FN EdgeView edgeByDetail(EdgeView edge, Surface surface, EdgeBase base, D
 
 // Metric `displaced`: the edge as long as the displaced surface is along it, and as much shorter as it is seen from its end: what of it lies across
 // the view, at least a quarter, and what displacement adds, which faces every way. `roughness`: (displaced length / length)^2 - 1 at scale 1.
-SHARED_FN EdgeView edgeAsDisplaced(EdgeView edge, vec3 p, vec3 q, float roughness, View view)
+SHARED_FN EdgeView edgeAsDisplaced(EdgeView edge, vec3 p, vec3 q, float roughness, float scale_squared, View view)
 {
 	vec3 sight = vec3(view.forward.x, view.forward.y, view.forward.z);
 	precise float middle_x = p.x + q.x;
@@ -169,7 +177,6 @@ SHARED_FN EdgeView edgeAsDisplaced(EdgeView edge, vec3 p, vec3 q, float roughnes
 	// Parts of an edge longer than half its distance can face the eye quite otherwise: it counts in full, or splitting might not end.
 	bool is_long = view.distance_weight != 0.0f && twice_squared > ends_squared;
 	precise float least = whole * (is_long ? 1.0f : 0.0625f);
-	precise float scale_squared = view.displacement_scale * view.displacement_scale;
 	precise float added_share = scale_squared * roughness;
 	precise float added = added_share * whole;
 	precise float seen = max(across, least);
@@ -202,9 +209,9 @@ SHARED_FN EdgeView edgeByMetric(Surface surface, EdgeBase base, DomainPoint p, D
 	if (HAS_DISPLACED_EDGES && IS_GIVEN(surface.edge_roughness))
 	{
 		float roughness = 0.0f;
-		if (HAS_DISPLACEMENT)
+		if (HAS_DISPLACEMENT || HAS_PN)
 			roughness = roughnessAlong(surface, base.triangle, p, q);
-		return edgeAsDisplaced(edge, relative_p, relative_q, roughness, view);
+		return edgeAsDisplaced(edge, relative_p, relative_q, roughness, tableScaleSquared(surface, view), view);
 	}
 	return edge;
 }

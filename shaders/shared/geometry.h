@@ -120,7 +120,7 @@ SHARED_LAYOUT(TriangleDetail, 36, bias, 32)
 struct Surface
 {
 	GPU_PTR(vec3) positions;         // per vertex, mesh units
-	GPU_PTR(vec3) directions;        // per vertex: displacement direction of its welded fan, unit or zero
+	GPU_PTR(vec3) directions;        // per vertex: direction of its welded fan, for displacement and PN triangles; unit or zero
 	GPU_PTR(vec2) uvs;               // per vertex: height map coordinates, transforms applied
 	GPU_PTR(float) densities;        // per vertex: height texels per mesh unit
 	GPU_PTR(uint) triangles;         // per triangle, see above
@@ -132,8 +132,9 @@ struct Surface
 	GPU_PTR(HeightMap) height_maps;
 	GPU_PTR(TriangleDetail) triangle_details;  // per triangle; metric `detail`
 	GPU_PTR(vec3) edge_roughness;              // per triangle, its three edges; metric `displaced`
+	GPU_PTR(vec3) pn_directions;               // `directions` once more where base triangles are PN triangles (shared/pn.h)
 };
-SHARED_LAYOUT(Surface, 104, edge_roughness, 96)
+SHARED_LAYOUT(Surface, 112, pn_directions, 104)
 
 SHARED_END
 

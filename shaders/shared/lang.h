@@ -72,6 +72,7 @@ inline int bitCount(uint value)
 // The reference always has every code path; shaders compile out what the scene does not need.
 inline constexpr bool HAS_DISPLACEMENT = true;
 inline constexpr bool HAS_SEAMS = true;
+inline constexpr bool HAS_PN = true;  // a surface says whether it is so (Surface::pn_directions)
 inline constexpr bool HAS_HEIGHT_U8 = true;
 inline constexpr bool HAS_HEIGHT_U16 = true;
 inline constexpr bool HAS_HEIGHT_F32 = true;

@@ -3,6 +3,7 @@
 #ifndef TESSERA_SHARED_SURFACE_H
 #define TESSERA_SHARED_SURFACE_H
 #include "shared/height.h"
+#include "shared/pn.h"
 #include "shared/view.h"
 
 SHARED_BEGIN
@@ -24,10 +25,10 @@ struct TriangleCorners
 	vec3 position0;  // mesh units
 	vec3 position1;
 	vec3 position2;
-	vec3 direction0;  // not set, as all below, when nothing is displaced
+	vec3 direction0;  // not set when nothing is displaced and triangles are flat
 	vec3 direction1;
 	vec3 direction2;
-	vec2 uv0;
+	vec2 uv0;  // not set, as what follows, when nothing is displaced
 	vec2 uv1;
 	vec2 uv2;
 	vec3 densities;  // height texels per mesh unit at the three corners
@@ -117,11 +118,14 @@ SHARED_FN TriangleCorners triangleCorners(Surface surface, BaseTriangle base)
 	corners.position0 = AT(vec3, surface.positions, base.v0);
 	corners.position1 = AT(vec3, surface.positions, base.v1);
 	corners.position2 = AT(vec3, surface.positions, base.v2);
-	if (HAS_DISPLACEMENT)
+	if (HAS_DISPLACEMENT || HAS_PN)
 	{
 		corners.direction0 = AT(vec3, surface.directions, base.v0);
 		corners.direction1 = AT(vec3, surface.directions, base.v1);
 		corners.direction2 = AT(vec3, surface.directions, base.v2);
+	}
+	if (HAS_DISPLACEMENT)
+	{
 		corners.uv0 = AT(vec2, surface.uvs, base.v0);
 		corners.uv1 = AT(vec2, surface.uvs, base.v1);
 		corners.uv2 = AT(vec2, surface.uvs, base.v2);
@@ -130,6 +134,18 @@ SHARED_FN TriangleCorners triangleCorners(Surface surface, BaseTriangle base)
 		corners.densities.z = AT(float, surface.densities, base.v2);
 	}
 	return corners;
+}
+
+// The base surface at a point of the triangle: flat, or a PN triangle.
+SHARED_FN precise vec3 basePoint(Surface surface, TriangleCorners corners, vec3 weights)
+{
+	precise vec3 flat_point = weightedVec3(corners.position0, corners.position1, corners.position2, weights);
+	if (HAS_PN && IS_GIVEN(surface.pn_directions))
+	{
+		PnRises rises = pnRises(corners.position0, corners.position1, corners.position2, corners.direction0, corners.direction1, corners.direction2);
+		return pnPoint(flat_point, rises, corners.direction0, corners.direction1, corners.direction2, weights);
+	}
+	return flat_point;
 }
 
 // What the triangle itself says about the height at a point.
@@ -238,7 +254,7 @@ SHARED_FN SurfaceSample sampleAtCorners(Surface surface, BaseTriangle base, Tria
 {
 	precise vec3 weights = domainWeights(p);
 	SurfaceSample result;
-	result.base = weightedVec3(corners.position0, corners.position1, corners.position2, weights);
+	result.base = basePoint(surface, corners, weights);
 	result.direction = vec3(0.0f, 0.0f, 0.0f);
 	result.source.height_map = NO_INDEX;
 	if (HAS_DISPLACEMENT)

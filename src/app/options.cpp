@@ -208,6 +208,8 @@ const std::array kTable = {
 				Rebuild::Scene, true },
 	OptionDesc{ "displacement-scale", "SCALE", "scales every displacement; 0 = none", &AppOptions::displacement_scale, -1e6, 1e6,
 				Rebuild::Pipelines },
+	OptionDesc{ "pn", "on|off", "PN triangles: the base surface is curved between the directions of its vertices; hard edges become round",
+				choiceOf<&AppOptions::pn>(kOffOnNames), 0, 0, Rebuild::Scene },
 	OptionDesc{ "view", "NAME", "what the picture shows", choiceOf<&AppOptions::view>(kViewNames), 0, 0, Rebuild::Pipelines },
 	OptionDesc{ "wireframe", "", "sides of micro-triangles, and of base triangles in orange, over whatever the view shows", &AppOptions::wireframe, 0,
 				0, Rebuild::Pipelines },

@@ -28,6 +28,7 @@ struct AppOptions : RenderOptions
 	uint32_t grid_columns = 1, grid_rows = 1;
 	std::optional<dvec3> grid_u, grid_v;  // world units; absent: a little more than the scene's size
 	std::vector<std::string> displacements;
+	bool pn = false;          // base triangles are PN triangles
 	std::string camera_path;  // file; empty: one camera
 	uint32_t frames = 1, warmup = 0;
 	// What a report tries (verify shares the rates), and what it is to recommend.

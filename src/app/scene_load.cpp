@@ -107,16 +107,17 @@ Result<Camera> baseCamera(const BuiltScene& scene, const AppOptions& options)
 	return cameraOf(scene.cameras[index], scene);
 }
 
+}  // namespace
+
 BuildOptions buildOptionsOf(const AppOptions& options)
 {
 	BuildOptions build = { options.cluster_vertices, options.cluster_triangles, {} };
 	for (const Metric metric : metricsOf(options))
 		build.tables.include(metric);
 	build.tables.include(options.metric);
+	build.pn = options.pn;
 	return build;
 }
-
-}  // namespace
 
 Result<ImportedScene> importScene(const std::string& scene, const AppOptions& options)
 {

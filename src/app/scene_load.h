@@ -1,6 +1,7 @@
 // From what the command line names to a built scene and a camera.
 #pragma once
 #include "app/options.h"
+#include "scene/build.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
 #include "tables/table.h"
@@ -11,6 +12,9 @@ namespace tessera
 // Reads a file or makes a built-in scene (empty name: the default one), attaches displacement and copies it over the grid.
 // Errors: those of importGltf, makeBuiltinScene and attachDisplacement; Usage when the grid has too many instances.
 Result<ImportedScene> importScene(const std::string& scene, const AppOptions& options);
+
+// What buildScene is asked for: sizes of clusters, tables of the metrics, PN triangles.
+BuildOptions buildOptionsOf(const AppOptions& options);
 
 // importScene and buildScene; says what it does, and prints the scene's warnings.
 Result<BuiltScene> loadScene(const std::string& scene, const AppOptions& options);

@@ -210,6 +210,7 @@ Status FrameResources::makeSurface(const FramePlan& plan)
 	surface.height_maps = kept("height_maps");
 	surface.triangle_details = kept("triangle_details");
 	surface.edge_roughness = kept("edge_roughness");
+	surface.pn_directions = scene_.traits.has_pn ? surface.directions : 0;
 	return upload("surface", std::as_bytes(std::span(&surface, 1)));
 }
 

@@ -91,6 +91,11 @@ inline CullOptions culling(const PlanInput& input)
 inline constexpr Condition kDisplaced = {
 	[](const PlanInput& input) { return input.scene.has_displacement && input.options.displacement_scale != 0; }, "no material displaces"
 };
+inline constexpr Condition kPn = { [](const PlanInput& input) { return input.scene.has_pn && input.options.rate > 0; },
+								   "--pn is off, nothing is tessellated, or no triangle is curved" };
+// What a surface that is not flat needs.
+inline constexpr Condition kUneven = { [](const PlanInput& input) { return kDisplaced.holds(input) || kPn.holds(input); },
+									   "no material displaces, and triangles are flat" };
 inline constexpr Condition kHeightFootprints = {
 	[](const PlanInput& input) { return kDisplaced.holds(input) && input.sizes.height_footprint_bytes <= input.device.most_footprint_bytes; },
 	"nothing is displaced, or the height maps are too large to be kept with each texel's neighbours"
@@ -99,18 +104,18 @@ inline constexpr Condition kSeams = { [](const PlanInput& input) {
 										 return kDisplaced.holds(input) && input.scene.seam_edges + input.scene.seam_corners > 0;
 									 },
 									  "no displaced edge or corner lies on a seam" };
-inline constexpr Condition kDetail = { [](const PlanInput& input) { return input.options.metric == Metric::Detail && kDisplaced.holds(input); },
-									   "another metric is chosen, or no material displaces" };
+inline constexpr Condition kDetail = { [](const PlanInput& input) { return input.options.metric == Metric::Detail && kUneven.holds(input); },
+									   "another metric is chosen, or the surface is flat" };
 inline constexpr Condition kDisplacedEdges = { [](const PlanInput& input) {
-												  return input.options.metric == Metric::Displaced && kDisplaced.holds(input);
+												  return input.options.metric == Metric::Displaced && kUneven.holds(input);
 											  },
-											   "another metric is chosen, or no material displaces" };
+											   "another metric is chosen, or the surface is flat" };
 inline constexpr Condition kMetricTables = { [](const PlanInput& input) { return kDetail.holds(input) || kDisplacedEdges.holds(input); },
 											 "the metric needs no tables" };
-// Where nothing is displaced, the metric `detail` has every factor 1.
+// Where the surface is flat, the metric `detail` has every factor 1.
 inline constexpr Condition kTessellates = { [](const PlanInput& input) {
 											   return input.options.rate > 0 && input.view.factors_above_one &&
-													  (input.options.metric != Metric::Detail || kDisplaced.holds(input));
+													  (input.options.metric != Metric::Detail || kUneven.holds(input));
 										   },
 											"no edge can get more than one segment at this rate and camera" };
 inline constexpr Condition kDoesNotTessellate = { [](const PlanInput& input) { return !kTessellates.holds(input); }, "cluster_classify writes it" };

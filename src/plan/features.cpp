@@ -18,6 +18,7 @@ std::vector<Feature> shaderFeatures(const PlanInput& input)
 	return {
 		conditional("HAS_DISPLACEMENT", 1, kDisplaced),
 		conditional("HAS_SEAMS", 2, kSeams),
+		conditional("HAS_PN", 28, kPn),
 		feature("HAS_TESSELLATION", 3, input.options.rate > 0, "the rate is 0"),
 		conditional("HAS_COLOR_TEXTURES", 4, kColorTextures),
 		conditional("HAS_VERTEX_COLORS", 5, kVertexColors),

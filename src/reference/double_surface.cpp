@@ -45,6 +45,11 @@ dvec2 levelSize(const HeightMapData& map, uint32_t level)
 	return dvec2(std::max(map.record.width >> level, 1u), std::max(map.record.height >> level, 1u));
 }
 
+dvec3 weightsOf(DomainPoint p)
+{
+	return dvec3(p.u, p.v, domainW(p)) / double(DOMAIN_SIZE);
+}
+
 // Bilinear, texel centres at half-integers.
 double bilinear(const HeightMapData& map, uint32_t level, dvec2 uv)
 {
@@ -106,10 +111,51 @@ double DoubleSurface::rateDistance(dvec3 from_eye) const
 	return view_.distance_weight == 0 ? floor : std::max(glm::length(from_eye), floor);
 }
 
-dvec3 DoubleSurface::basePoint(const BaseTriangle& base, DomainPoint p) const
+// Flat, or the PN triangle as its paper defines it: ten control points and their Bernstein weights.
+dvec3 DoubleSurface::basePoint(const BaseTriangle& base, dvec3 weights) const
 {
 	const auto& positions = scene_.built().positions;
-	const dvec3 weights = dvec3(p.u, p.v, domainW(p)) / double(DOMAIN_SIZE);
+	const uint32_t vertices[3] = { base.v0, base.v1, base.v2 };
+	if (!scene_.built().traits.has_pn)
+		return dvec3(positions[base.v0]) * weights.x + dvec3(positions[base.v1]) * weights.y + dvec3(positions[base.v2]) * weights.z;
+	dvec3 corners_sum(0), edges_sum(0), point(0);
+	for (int i = 0; i < 3; ++i)
+	{
+		const dvec3 from(positions[vertices[i]]), normal(scene_.directions()[vertices[i]]);
+		corners_sum += from;
+		point += from * (weights[i] * weights[i] * weights[i]);
+		for (int k = 1; k < 3; ++k)
+		{
+			const int j = (i + k) % 3;
+			const dvec3 to(positions[vertices[j]]);
+			const dvec3 control = (from * 2.0 + to - normal * glm::dot(to - from, normal)) / 3.0;
+			edges_sum += control;
+			point += control * (3 * weights[i] * weights[i] * weights[j]);
+		}
+	}
+	const dvec3 edges_mean = edges_sum / 6.0;
+	const dvec3 middle = edges_mean + (edges_mean - corners_sum / 3.0) / 2.0;
+	return point + middle * (6 * weights.x * weights.y * weights.z);
+}
+
+// Weights are exact: one rounding per product, two of the sums. A PN triangle takes away a sum of directions: a rise is off by 4 roundings of the
+// edge's length, its share by 3 more, a coefficient and the sum by 5 together; shares add up to at most 1/3. What is below 2^-80 counts as 0.
+double DoubleSurface::baseBound(const BaseTriangle& base) const
+{
+	const auto& positions = scene_.built().positions;
+	const dvec3 p0 = positions[base.v0], p1 = positions[base.v1], p2 = positions[base.v2];
+	const double size = std::max({ largest(p0), largest(p1), largest(p2) });
+	if (!scene_.built().traits.has_pn)
+		return 3 * kEpsilon * size;
+	const double longest = std::max({ glm::length(p1 - p0), glm::length(p2 - p1), glm::length(p0 - p2) });
+	return 4 * kEpsilon * (size + longest * 1.1) + kEpsilon * longest + 0x1p-80;
+}
+
+// What factors are decided by, whatever the surface is.
+dvec3 DoubleSurface::flatPoint(const BaseTriangle& base, DomainPoint p) const
+{
+	const auto& positions = scene_.built().positions;
+	const dvec3 weights = weightsOf(p);
 	return dvec3(positions[base.v0]) * weights.x + dvec3(positions[base.v1]) * weights.y + dvec3(positions[base.v2]) * weights.z;
 }
 
@@ -200,12 +246,10 @@ DoublePoint DoubleSurface::at(ClusterRef ref, uint32_t triangle, DomainPoint p) 
 {
 	const BuiltScene& built = scene_.built();
 	const BaseTriangle base = scene_.base(ref, triangle);
-	const dvec3 weights = dvec3(p.u, p.v, domainW(p)) / double(DOMAIN_SIZE);
+	const dvec3 weights = weightsOf(p);
 	DoublePoint point;
-	point.base = basePoint(base, p);
-	const double size = std::max({ largest(built.positions[base.v0]), largest(built.positions[base.v1]), largest(built.positions[base.v2]) });
-	// Weights are exact: one rounding per product, two of the sums.
-	point.base_bound = 3 * kEpsilon * size;
+	point.base = basePoint(base, weights);
+	point.base_bound = baseBound(base);
 	point.displaced = point.base;
 	point.displaced_bound = point.base_bound;
 
@@ -237,7 +281,7 @@ dvec3 DoubleSurface::onFinestMip(const BaseTriangle& base, dvec3 weights) const
 	const BuiltScene& built = scene_.built();
 	const auto directions = scene_.directions();
 	const uint32_t v0 = base.v0, v1 = base.v1, v2 = base.v2;
-	const dvec3 point = dvec3(built.positions[v0]) * weights.x + dvec3(built.positions[v1]) * weights.y + dvec3(built.positions[v2]) * weights.z;
+	const dvec3 point = basePoint(base, weights);
 	const Source source = sourceAt(base, weights);
 	if (source.height_map == NO_INDEX)
 		return point;
@@ -253,7 +297,7 @@ dvec3 DoubleSurface::onFinestMip(const BaseTriangle& base, dvec3 weights) const
 double DoubleSurface::realFactor(ClusterRef ref, uint32_t triangle, DomainPoint p, DomainPoint q) const
 {
 	const BaseTriangle base = scene_.base(ref, triangle);
-	const dvec3 a = fromEye(ref.instance, basePoint(base, p)), b = fromEye(ref.instance, basePoint(base, q));
+	const dvec3 a = fromEye(ref.instance, flatPoint(base, p)), b = fromEye(ref.instance, flatPoint(base, q));
 	const double segment = std::sqrt(double(view_.rate_over_focal_squared)) * std::min(rateDistance(a), rateDistance(b));
 	return glm::length(a - b) / segment;
 }

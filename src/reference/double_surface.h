@@ -51,7 +51,9 @@ private:
 
 	dvec3 fromEye(uint32_t instance, dvec3 mesh_point) const;
 	double rateDistance(dvec3 from_eye) const;
-	dvec3 basePoint(const BaseTriangle& base, DomainPoint p) const;
+	dvec3 basePoint(const BaseTriangle& base, dvec3 weights) const;
+	dvec3 flatPoint(const BaseTriangle& base, DomainPoint p) const;
+	double baseBound(const BaseTriangle& base) const;
 	Source ownSource(const BaseTriangle& base, dvec3 weights) const;
 	Source sourceAt(const BaseTriangle& base, dvec3 weights) const;
 	double levelOf(double footprint_squared) const;

@@ -62,6 +62,7 @@ HostScene::HostScene(const BuiltScene& scene, const TessellationTable& table, Me
 	surface_.seam_corners = addressOf<SeamCorner>(scene.seam_corners);
 	surface_.material_height_maps = addressOf<uint32_t>(orElse(scene.material_height_maps, no_height_maps_));
 	surface_.height_maps = addressOf<HeightMap>(height_maps_);
+	surface_.pn_directions = scene.traits.has_pn ? surface_.directions : 0;
 	giveTables(metric);
 	table_.patterns = addressOf<PatternRange>(patterns_);
 	table_.vertices = addressOf<uint32_t>(table.vertices);
@@ -74,14 +75,14 @@ void HostScene::giveTables(Metric metric)
 	const size_t triangles = built_.triangles.size();
 	if (metric == Metric::Detail)
 	{
-		if (built_.uvs.empty())
+		if (built_.uvs.empty() && !built_.traits.has_pn)
 			no_details_.assign(triangles, {});
 		surface_.triangle_details = addressOf<TriangleDetail>(orElse(built_.triangle_details, no_details_));
 		CHECK(triangles == 0 || surface_.triangle_details != 0, "{}: built without the tables of metric detail", built_.path);
 	}
 	if (metric == Metric::Displaced)
 	{
-		if (built_.uvs.empty())
+		if (built_.uvs.empty() && !built_.traits.has_pn)
 			no_roughness_.assign(triangles, vec3(0));
 		surface_.edge_roughness = addressOf<vec3>(orElse(built_.edge_roughness, no_roughness_));
 		CHECK(triangles == 0 || surface_.edge_roughness != 0, "{}: built without the table of metric displaced", built_.path);

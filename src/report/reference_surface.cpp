@@ -12,8 +12,9 @@ namespace tessera::report
 namespace
 {
 
-constexpr double kStep = 1e-6;       // of a weight, for derivatives: far below a texel, far above what double rounds
-constexpr uint32_t kMostCuts = 512;  // per edge of a base triangle in the coarse mesh
+constexpr double kStep = 1e-6;            // of a weight, for derivatives: far below a texel, far above what double rounds
+constexpr uint32_t kMostCuts = 512;       // per edge of a base triangle in the coarse mesh
+constexpr uint32_t kMostCurvedCuts = 16;  // of a PN triangle that is not displaced
 
 dvec3 threeWeights(dvec2 w)
 {
@@ -53,6 +54,9 @@ ReferenceSurface::ReferenceSurface(const reference::HostScene& scene, const View
 		for (uint32_t t = 0; t < clusterTriangles(built.clusters[c]); ++t)
 			texels += texelArea({ c, t });
 	const double cuts_per_texel = std::min(4.0, most_triangles / std::max(texels, 1.0));
+	if (built.traits.has_pn)
+		least_cuts_ = static_cast<uint32_t>(
+			std::clamp(std::sqrt(most_triangles / double(std::max<size_t>(built.triangles.size(), 1))), 1.0, double(kMostCurvedCuts)));
 	coarse_.resize(built.meshes.size());
 	for (size_t m = 0; m < built.meshes.size(); ++m)
 		coarse_[m] = coarseOf(built.meshes[m], cuts_per_texel);
@@ -80,7 +84,7 @@ ReferenceSurface::Coarse ReferenceSurface::coarseOf(const MeshRecord& mesh, doub
 		for (uint32_t t = 0; t < clusterTriangles(scene_.built().clusters[c]); ++t)
 		{
 			coarse.bases.push_back({ c, t });
-			cuts.push_back(cutsFor(texelArea({ c, t }), cuts_per_texel));
+			cuts.push_back(std::max(least_cuts_, cutsFor(texelArea({ c, t }), cuts_per_texel)));
 			first_vertex.push_back(vertices);
 			first_triangle.push_back(triangles);
 			vertices += (cuts.back() + 1) * (cuts.back() + 2) / 2;

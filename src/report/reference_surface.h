@@ -1,5 +1,5 @@
-// The surface that error is measured against: the base surface displaced with the height map at mip 0, in double precision, and the
-// nearest point of it. (DESIGN.md, section 8)
+// The surface that error is measured against: the base surface (flat, or of PN triangles) displaced with the height map at mip 0, in double
+// precision, and the nearest point of it. (DESIGN.md, section 8)
 #pragma once
 #include "reference/double_surface.h"
 #include "report/embree_scene.h"
@@ -61,6 +61,7 @@ private:
 	const reference::HostScene& scene_;
 	View view_;
 	reference::DoubleSurface surface_;
+	uint32_t least_cuts_ = 1;     // per edge of a base triangle
 	std::vector<Coarse> coarse_;  // per mesh
 };
 

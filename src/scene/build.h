@@ -12,6 +12,7 @@ struct BuildOptions
 	uint32_t cluster_vertices = 64;   // most vertices per cluster, 3..128
 	uint32_t cluster_triangles = 64;  // most triangles per cluster, 4..128, a multiple of 4
 	MetricTables tables = {};         // which are made
+	bool pn = false;                  // base triangles are PN triangles (shared/pn.h)
 };
 
 // import → weld → normals and directions → vertices → seams → clusters → bounds → tables of metrics → traits (DESIGN.md, section 3).

@@ -48,7 +48,7 @@ struct SceneTraits
 	uint32_t degenerate_triangles = 0;  // zero-area base triangles, kept
 	uint32_t seam_edges = 0;            // triangle edges whose heights another triangle owns
 	uint32_t seam_corners = 0;
-	uint32_t zero_directions = 0;    // welded vertices without a displacement direction
+	uint32_t zero_directions = 0;    // welded vertices without a direction
 	uint32_t nonmanifold_edges = 0;  // welded edges with more than two triangles
 	uint32_t boundary_edges = 0;
 	bool has_displacement = false;  // some material displaces by something other than 0
@@ -63,17 +63,18 @@ struct SceneTraits
 	bool has_single_sided = false;
 	bool has_double_sided = false;
 	bool has_mirrored_instances = false;
-	bool directions_are_normals = false;  // every displacement direction equals the authored normal bit for bit
+	bool directions_are_normals = false;  // every direction equals the authored normal bit for bit
+	bool has_pn = false;                  // base triangles are PN triangles, and some are curved
 };
 
-// Arrays that the scene does not need are empty (C5): directions, uvs, densities without displacement, color_uvs without
-// colour textures, seam arrays without seams.
+// Arrays that the scene does not need are empty (C5): uvs, densities without displacement, directions without it and PN triangles, color_uvs
+// without colour textures, seam arrays without seams.
 struct BuiltScene
 {
 	std::string path;
 	// per vertex, all meshes one after another
 	std::vector<vec3> positions;
-	std::vector<vec3> directions;  // displacement direction of the welded fan; unit or zero
+	std::vector<vec3> directions;  // of the welded fan, for displacement and PN triangles; unit or zero
 	std::vector<vec3> normals;     // shading normal, unit: authored or computed
 	std::vector<vec2> uvs;         // for the height map
 	std::vector<float> densities;  // height texels per mesh unit

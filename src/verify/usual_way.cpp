@@ -15,7 +15,11 @@ vec3 basePosition(const BuiltScene& scene, const BaseTriangle& base, DomainPoint
 {
 	const vec3 &p0 = scene.positions[base.v0], &p1 = scene.positions[base.v1], &p2 = scene.positions[base.v2];
 	const vec3 weights = domainWeights(p);
-	return float_barycentrics ? p2 + (p0 - p2) * weights.x + (p1 - p2) * weights.y : weightedVec3(p0, p1, p2, weights);
+	const vec3 flat = float_barycentrics ? p2 + (p0 - p2) * weights.x + (p1 - p2) * weights.y : weightedVec3(p0, p1, p2, weights);
+	if (!scene.traits.has_pn)
+		return flat;
+	const vec3 &n0 = scene.normals[base.v0], &n1 = scene.normals[base.v1], &n2 = scene.normals[base.v2];
+	return pnPoint(flat, pnRises(p0, p1, p2, n0, n1, n2), n0, n1, n2, weights);
 }
 
 // The displaced point by nothing but the triangle's own vertices.

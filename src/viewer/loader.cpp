@@ -52,7 +52,7 @@ Result<std::shared_ptr<LoadedScene>> SceneLoader::load(const LoadRequest& reques
 		say("reading", 0.1f);
 		TRY_ASSIGN(const ImportedScene imported, importScene(request.scene, request.options));
 		say("building clusters, seams and bounds", 0.5f);
-		TRY_ASSIGN(subject.scene, buildScene(imported, { request.options.cluster_vertices, request.options.cluster_triangles }));
+		TRY_ASSIGN(subject.scene, buildScene(imported, buildOptionsOf(request.options)));
 		for (const std::string& warning : subject.scene.warnings)
 			logWarning("{}", warning);
 		say("sending to the device", 0.95f);

@@ -309,6 +309,41 @@ ImportedScene coarseSphereScene()
 	return scene;
 }
 
+ImportedScene roundScene(uint32_t cuts)
+{
+	ImportedScene scene;
+	Primitive p;
+	p.material = addPlain(scene, "plain");
+	const auto addPoint = [&](vec3 at) {
+		const vec3 point = glm::normalize(at);
+		addVertex(p, point, point, vec2(0));
+	};
+	for (uint32_t octant = 0; octant < 8; ++octant)
+	{
+		const vec3 sign(octant & 1 ? -1 : 1, octant & 2 ? -1 : 1, octant & 4 ? -1 : 1);
+		const bool odd = std::popcount(octant) % 2 != 0;
+		const auto first = uint32_t(p.positions.size());
+		for (uint32_t row = 0; row <= cuts; ++row)
+			for (uint32_t column = 0; column + row <= cuts; ++column)
+				addPoint(sign * vec3(float(cuts - row - column), float(column), float(row)));
+		const auto vertex = [&](uint32_t row, uint32_t column) {
+			return first + row * (cuts + 1) - row * (row - 1) / 2 + column;
+		};
+		const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {
+			addTriangle(p, a, odd ? c : b, odd ? b : c);
+		};
+		for (uint32_t row = 0; row < cuts; ++row)
+			for (uint32_t column = 0; column + row < cuts; ++column)
+			{
+				add(vertex(row, column), vertex(row, column + 1), vertex(row + 1, column));
+				if (column + row + 1 < cuts)
+					add(vertex(row, column + 1), vertex(row + 1, column + 1), vertex(row + 1, column));
+			}
+	}
+	addPlacedMesh(scene, { p });
+	return scene;
+}
+
 ImportedScene soupScene(uint32_t seed, uint32_t triangles)
 {
 	ImportedScene scene;
@@ -374,6 +409,7 @@ HostSurface::HostSurface(const BuiltScene& scene)
 	surface.seam_corners = address(scene.seam_corners);
 	surface.material_height_maps = address(scene.material_height_maps);
 	surface.height_maps = address(height_maps);
+	surface.pn_directions = scene.traits.has_pn ? surface.directions : 0;
 }
 
 View viewFrom(vec3 eye, float sample_over_focal)

@@ -40,6 +40,9 @@ ImportedScene touchingConesScene();  // two cones that share their tip and nothi
 ImportedScene transformedScene();    // one map through two texture transforms
 ImportedScene coarseSphereScene();   // an octahedron: directions turn by a right angle in a triangle
 
+// The unit sphere around the origin as an octahedron whose edges are cut in `cuts`: smooth normals, not displaced, 8 cuts^2 triangles.
+ImportedScene roundScene(uint32_t cuts);
+
 ImportedScene soupScene(uint32_t seed, uint32_t triangles);  // random triangles over few points, three materials, everything at odds
 
 struct NamedScene

@@ -82,6 +82,7 @@ const std::vector<std::pair<std::string, std::string>> kSamples = {
 	{ "displacement-scale", "-0.7" },
 	{ "view", "wireframe" },
 	{ "shading", "flat" },
+	{ "pn", "on" },
 	{ "shadows", "on" },
 	{ "ao", "16" },
 	{ "ao-radius", "0.25" },

@@ -157,6 +157,7 @@ void forEveryInput(const std::function<void(const PlanInput&)>& visit)
 		input.scene.has_color_textures = bit(10);
 		input.options.smooth_normals = bit(11);
 		input.scene.directions_are_normals = bit(12);
+		input.scene.has_pn = bit(12) != bit(4);
 		input.scene.has_vertex_colors = bit(3);
 		input.options.view = bit(2) ? ViewMode::Shaded : ViewMode::Depth;
 		visit(input);
@@ -207,6 +208,25 @@ TEST(framePlan, withoutSeamsNothingOfThemIsHeld)
 	expectKept(plan, { "height_texels", "uvs" });
 	EXPECT_FALSE(featureOn(plan, "HAS_SEAMS"));
 	EXPECT_TRUE(featureOn(plan, "HAS_DISPLACEMENT"));
+}
+
+TEST(framePlan, pnTrianglesAloneKeepDirectionsAndNothingElseOfDisplacement)
+{
+	PlanInput input = fullInput();
+	EXPECT_FALSE(featureOn(planOf(input), "HAS_PN"));
+	input.scene.has_displacement = false;
+	input.scene.has_pn = true;
+	const FramePlan plan = planOf(input);
+	EXPECT_TRUE(featureOn(plan, "HAS_PN"));
+	EXPECT_FALSE(featureOn(plan, "HAS_DISPLACEMENT"));
+	expectKept(plan, { "directions" });
+	expectLeftOut(plan, { "height_texels", "height_maps", "uvs", "densities", "seam_edges", "triangle_reaches" });
+	input.options.metric = Metric::Detail;
+	expectKept(planOf(input), { "triangle_details" });
+	EXPECT_TRUE(planOf(input).has("cluster_classify"));
+	input.options.rate = 0;
+	EXPECT_FALSE(featureOn(planOf(input), "HAS_PN"));
+	expectLeftOut(planOf(input), { "directions" });
 }
 
 TEST(framePlan, directionsThatAreTheNormalsAreNotHeldTwice)

@@ -357,6 +357,25 @@ TEST(geometryError, detailNeedsAtMostHalfTheTrianglesOfEdgeOnTerrainAndPlanet)
 	}
 }
 
+TEST(geometryError, pnTrianglesAreMeasuredAgainstTheCurvedSurfaceThatTheyAre)
+{
+	const ReferenceScene flat(roundScene(2)), curved(roundScene(2), defaultTable(), { .pn = true });
+	double before = 0;
+	for (const double rate : { 64.0, 32.0, 16.0 })
+	{
+		EXPECT_LT(measure(flat, orthographicView(flat, 3, rate)).whole.mesh.max, 1e-6);
+		const Measured measured = measure(curved, orthographicView(curved, 3, rate));
+		printf("sphere of 32 PN triangles at rate %.0f: %llu micro-triangles, max %.2e, RMS %.2e\n", rate,
+			   static_cast<unsigned long long>(measured.triangles), measured.whole.mesh.max, measured.whole.mesh.rms);
+		// With the square of the segments' length.
+		if (before > 0)
+		{
+			EXPECT_NEAR(before / measured.whole.mesh.rms, 4, 1.2);
+		}
+		before = measured.whole.mesh.rms;
+	}
+}
+
 TEST(geometryError, flatDisplacementIsAtTheFloatFloorAtAnyRate)
 {
 	const ReferenceScene scene(rhombus(3, constantImage(64, 64, TexelFormat::U16, 40000), 0.3f));

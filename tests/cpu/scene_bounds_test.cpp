@@ -104,16 +104,17 @@ TEST(sceneBounds, containTheDisplacedSurfaceAtEveryMip)
 	std::mt19937 random(1);
 	for (const NamedScene& named : allScenes())
 		for (const uint32_t triangles : { 4u, 64u })
-			for (const float scale : { 1.0f, -2.5f })
-			{
-				const BuiltScene scene = built(named.scene, { .cluster_vertices = 64, .cluster_triangles = triangles });
-				const Samples samples = sampleClusters(scene, scale, random);
-				EXPECT_EQ(samples.outside_cluster, 0u) << named.name;
-				EXPECT_EQ(samples.outside_mesh, 0u) << named.name;
-				if (scale == 1)
-					printf("%-28s %2u triangles a cluster: box area %.2f times that of the surface\n", named.name.c_str(), triangles,
-						   samples.tightness);
-			}
+			for (const bool pn : { false, true })
+				for (const float scale : { 1.0f, -2.5f })
+				{
+					const BuiltScene scene = built(named.scene, { .cluster_vertices = 64, .cluster_triangles = triangles, .pn = pn });
+					const Samples samples = sampleClusters(scene, scale, random);
+					EXPECT_EQ(samples.outside_cluster, 0u) << named.name;
+					EXPECT_EQ(samples.outside_mesh, 0u) << named.name;
+					if (scale == 1)
+						printf("%-28s %2u triangles a cluster%s: box area %.2f times that of the surface\n", named.name.c_str(), triangles,
+							   pn ? ", PN triangles" : "", samples.tightness);
+				}
 }
 
 TEST(sceneBounds, boundingTheDisplacedCornersWouldNotBeEnough)

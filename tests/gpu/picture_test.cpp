@@ -319,6 +319,61 @@ TEST_F(picture, smoothNormalsFollowTheAnalyticSurfaceUnderAnyRate)
 	}
 }
 
+namespace
+{
+
+// Mean of the degrees between the normals that a picture of the unit sphere shows and the sphere's own where its pixels meet it.
+double meanNormalError(const GpuScene& scene, const Camera& camera)
+{
+	RenderOptions options = smallOptions(3);
+	options.view = ViewMode::Normals;
+	const GpuFrame frame = drawFrame(scene, options, camera);
+	const std::vector<uint8_t> texels = frame.picture();
+	const std::vector<bool> covered = coveredByColor(scene, frame, camera);
+	const dvec3 forward = glm::normalize(-camera.eye), right = glm::normalize(glm::cross(forward, camera.up)), up = glm::cross(right, forward);
+	double sum = 0;
+	size_t count = 0;
+	for (uint32_t y = 0; y < kHeight; ++y)
+		for (uint32_t x = 0; x < kWidth; ++x)
+		{
+			const dvec3 ray = glm::normalize(forward + right * ((x + 0.5 - kWidth / 2.0) / 45) - up * ((y + 0.5 - kHeight / 2.0) / 45));
+			const double along = -glm::dot(camera.eye, ray), squared = along * along - glm::dot(camera.eye, camera.eye) + 1;
+			// Not where the sphere turns away: a pixel there is many degrees.
+			if (squared < 0.1 || !covered[y * kWidth + x])
+				continue;
+			sum += degreesBetween(normalAt(texels, y * kWidth + x), camera.eye + ray * (along - std::sqrt(squared)));
+			++count;
+		}
+	EXPECT_GT(count, 1000u);
+	return sum / double(count);
+}
+
+}  // namespace
+
+TEST_F(picture, smoothNormalsOfPnTrianglesFollowTheSphereThatTheyAreNear)
+{
+	const Camera camera = squareCamera(dvec3(0.3, 0.5, 2), dvec3(0));
+	const double flat = meanNormalError(GpuScene(roundScene(3)), camera);
+	const double curved = meanNormalError(GpuScene(roundScene(3), defaultTable(), { .pn = true }), camera);
+	printf("degrees between normals and the sphere's: flat %.2f, PN triangles %.2f\n", flat, curved);
+	EXPECT_LT(curved, 2.0);
+	EXPECT_LT(curved * 2, flat);
+}
+
+// Places that depth tells: the picture itself.
+TEST_F(picture, aCoarseSphereOfPnTrianglesIsShadedAsAFineOne)
+{
+	const Camera camera = squareCamera(dvec3(0.3, 0.5, 2), dvec3(0));
+	const auto pictureOf = [&](uint32_t cuts, bool pn) {
+		return drawFrame(GpuScene(roundScene(cuts), defaultTable(), { .pn = pn }), smallOptions(3), camera).picture();
+	};
+	const std::vector<uint8_t> fine = pictureOf(48, false), flat = pictureOf(3, false), curved = pictureOf(3, true);
+	const size_t flat_differs = differingPixels(fine, flat, 6), curved_differs = differingPixels(fine, curved, 6);
+	printf("pixels that differ from a fine sphere: flat %zu, PN triangles %zu\n", flat_differs, curved_differs);
+	EXPECT_GT(flat_differs, 300u);
+	EXPECT_LT(curved_differs * 4, flat_differs);
+}
+
 TEST_F(picture, flatNormalsAreThoseOfTheMicroTriangles)
 {
 	const GpuScene scene(waveScene());

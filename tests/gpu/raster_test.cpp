@@ -95,6 +95,29 @@ TEST_F(raster, microVerticesOnSeamsEqualTheReferenceBitForBit)
 	}
 }
 
+TEST_F(raster, microVerticesOfPnTrianglesEqualTheReferenceBitForBit)
+{
+	ImportedScene plain = cubeScene(2);
+	plain.materials[0].displacement.reset();
+	const std::pair<const char*, ImportedScene> scenes[] = { { "round", roundScene(2) },
+															 { "hard edges", plain },
+															 { "hard edges and seams, displaced", cubeScene(2) },
+															 { "sphere", sphereScene(7, 9, TexelFormat::F32, Wrap::MirroredRepeat) },
+															 { "soup", soupScene(1, 40) } };
+	for (const auto& [name, imported] : scenes)
+	{
+		const GpuScene scene(imported, defaultTable(), { .pn = true });
+		ASSERT_TRUE(scene.built.traits.has_pn) << name;
+		for (const Raster path : drawingPaths())
+		{
+			const GpuFrame frame = drawFrame(scene, optionsFor(3, path));
+			expectSameVertices(frame, name);
+			expectSameAsReference(frame, name);
+			expectCovered(frame, name);
+		}
+	}
+}
+
 TEST_F(raster, microVerticesOfScaledAndUnscaledDisplacementEqualTheReferenceBitForBit)
 {
 	const auto scene = gpuScene("cube");

@@ -95,6 +95,24 @@ TEST_F(verifyScene, everyPromiseHoldsOnNonManifoldAndDegenerateInputAndWithoutTe
 	}
 }
 
+TEST_F(verifyScene, everyPromiseHoldsForPnTrianglesOnSmoothAndHardEdgesDisplacedOrNot)
+{
+	ImportedScene copies = roundScene(2);
+	for (int i = 1; i < 4; ++i)
+	{
+		copies.instances.push_back(copies.instances[0]);
+		copies.instances.back().world[3] = dvec4(1.5 * i, 0.3 * i, -2.0 * i, 1);
+	}
+	for (const ImportedScene& imported : { copies, cubeScene(2), soupScene(3, 40) })
+	{
+		const GpuScene scene(imported, defaultTable(), { .cluster_triangles = 16, .pn = true });
+		ASSERT_TRUE(scene.built.traits.has_pn);
+		verify::Request request = requestFor(scene, { 4 }, 2);
+		request.paths.resize(1);
+		expectHolds(runOrDie(request), "PN triangles");
+	}
+}
+
 TEST_F(verifyScene, coarsenedFramesAndRoundsAreVerifiedToo)
 {
 	const auto scene = gpuScene("instances:40");

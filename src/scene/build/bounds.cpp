@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "scene/build/height_map.h"
+#include "scene/build/pn_patch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -199,6 +200,24 @@ void boundNormals(const BuiltScene& scene, const ClusterRecord& cluster, Displac
 	bounds.cone_cutoff = float(std::sqrt(std::max(0.0, 1 - cosine * cosine)) + 1e-4);
 }
 
+// Grows the box by the control points, whose hull contains the surface; and the ball that contains what they add.
+void boundPatches(const BuiltScene& scene, const ClusterRecord& cluster, DisplacedBounds& bounds)
+{
+	double farthest = 0;
+	for (uint32_t t = 0; t < clusterTriangles(cluster); ++t)
+	{
+		const PnPatch patch = pnPatch(scene, cluster, t);
+		for (const dvec3& point : patch.points)
+		{
+			bounds.low = glm::min(bounds.low, vec3(point));
+			bounds.high = glm::max(bounds.high, vec3(point));
+		}
+		for (const dvec3& bulge : patch.bulges)
+			farthest = std::max(farthest, glm::length(bulge));
+	}
+	bounds.bulge = farthest > 0 ? std::nextafter(float(farthest), kInfinity) : 0;
+}
+
 DisplacedBounds clusterBounds(const BuiltScene& scene, const std::vector<HeightRanges>& maps, const ClusterRecord& cluster,
 							  std::span<TriangleReach> triangle_reaches)
 {
@@ -208,10 +227,12 @@ DisplacedBounds clusterBounds(const BuiltScene& scene, const std::vector<HeightR
 		bounds.low = glm::min(bounds.low, scene.positions[v]);
 		bounds.high = glm::max(bounds.high, scene.positions[v]);
 	}
+	if (scene.traits.has_pn)
+		boundPatches(scene, cluster, bounds);
 	if (!scene.uvs.empty())
 		boundDisplacement(scene, maps, cluster, bounds, triangle_reaches);
 	const bool displaced = bounds.reach_low != 0 || bounds.reach_high != 0;
-	if (!displaced && !scene.materials[cluster.material].double_sided)
+	if (!displaced && bounds.bulge == 0 && !scene.materials[cluster.material].double_sided)
 		boundNormals(scene, cluster, bounds);
 	return bounds;
 }
@@ -227,6 +248,7 @@ DisplacedBounds meshBounds(const BuiltScene& scene, const MeshRecord& mesh)
 		const DisplacedBounds& cluster = scene.cluster_bounds[i];
 		bounds.low = glm::min(bounds.low, cluster.low);
 		bounds.high = glm::max(bounds.high, cluster.high);
+		bounds.bulge = std::max(bounds.bulge, cluster.bulge);
 		bounds.reach_low = i == mesh.first_cluster ? cluster.reach_low : std::min(bounds.reach_low, cluster.reach_low);
 		bounds.reach_high = i == mesh.first_cluster ? cluster.reach_high : std::max(bounds.reach_high, cluster.reach_high);
 		if (cluster.reach_low == 0 && cluster.reach_high == 0)

@@ -3,6 +3,7 @@
 #include "scene/build/bounds.h"
 #include "scene/build/cluster_build.h"
 #include "scene/build/edge_detail.h"
+#include "scene/build/pn_patch.h"
 #include "scene/build/traits.h"
 
 #include <algorithm>
@@ -61,10 +62,11 @@ Status checkReach(const BuiltScene& scene)
 	return {};
 }
 
-VertexArrays arraysOf(const ImportedScene& imported, const MaterialUses& uses)
+VertexArrays arraysOf(const ImportedScene& imported, const MaterialUses& uses, bool pn)
 {
 	VertexArrays arrays;
 	arrays.displacement = uses.anyHeights();
+	arrays.directions = arrays.displacement || pn;
 	arrays.color_uvs = uses.anyColors();
 	for (size_t mesh = 0; mesh < imported.meshes.size(); ++mesh)
 		for (size_t i = 0; i < imported.meshes[mesh].primitives.size(); ++i)
@@ -81,7 +83,7 @@ void buildMesh(const Mesh& mesh, const std::vector<uint32_t>& materials, const M
 	parts.first_weld_id = next_weld_id;
 	parts.corners = layOutCorners(mesh);
 	parts.weld = weldMesh(parts.corners);
-	parts.normals = buildNormals(mesh, parts.corners, parts.weld, arrays.displacement);
+	parts.normals = buildNormals(mesh, parts.corners, parts.weld, arrays.directions);
 	parts.vertices = buildVertices(mesh, parts.corners, parts.weld, parts.normals, materials, uses, scene, arrays.colors);
 	if (arrays.displacement)
 	{
@@ -112,7 +114,7 @@ Result<BuiltScene> buildScene(const ImportedScene& imported, const BuildOptions&
 	const MaterialUses uses = buildMaterials(imported, scene);
 	TRY(checkSize(imported, uses));
 
-	const VertexArrays arrays = arraysOf(imported, uses);
+	const VertexArrays arrays = arraysOf(imported, uses, options.pn);
 	uint32_t next_weld_id = 0;
 	for (size_t i = 0; i < imported.meshes.size(); ++i)
 	{
@@ -128,6 +130,9 @@ Result<BuiltScene> buildScene(const ImportedScene& imported, const BuildOptions&
 		scene.first_seam_edges = {};
 		scene.seam_corner_indices = {};
 	}
+	scene.traits.has_pn = options.pn && anyCurved(scene);
+	if (!scene.traits.has_pn && !arrays.displacement)
+		scene.directions = {};
 	buildBounds(scene);
 	TRY(checkReach(scene));
 	if (options.tables.details)

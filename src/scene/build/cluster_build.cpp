@@ -179,9 +179,10 @@ private:
 			scene_.color_uvs.push_back(vertex.color_uv);
 		if (arrays_.colors)
 			scene_.colors.push_back(vertex.color);
+		if (arrays_.directions)
+			scene_.directions.push_back(mesh_.normals.weld_directions[vertex.weld]);
 		if (!arrays_.displacement)
 			return;
-		scene_.directions.push_back(mesh_.normals.weld_directions[vertex.weld]);
 		scene_.uvs.push_back(vertex.uv);
 		scene_.densities.push_back(mesh_.vertices.densities[index]);
 		scene_.seam_corner_indices.push_back(seamCornerOf(index));

@@ -21,7 +21,8 @@ struct MeshParts
 // Which per-vertex arrays the scene has.
 struct VertexArrays
 {
-	bool displacement = false;  // directions, uvs, densities, seams
+	bool displacement = false;  // uvs, densities, seams
+	bool directions = false;    // with displacement, and for PN triangles
 	bool color_uvs = false;
 	bool colors = false;
 };

@@ -1,4 +1,4 @@
-// Normals to shade with and directions to displace along.
+// Normals to shade with and directions to displace along, which PN triangles are curved by.
 #pragma once
 #include "scene/build/weld.h"
 

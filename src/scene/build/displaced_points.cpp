@@ -17,6 +17,11 @@ uint64_t addressOf(const std::vector<T>& values)
 	return reinterpret_cast<uint64_t>(values.data());
 }
 
+bool isCurved(const PnRises& rises)
+{
+	return rises.r01 != 0 || rises.r02 != 0 || rises.r10 != 0 || rises.r12 != 0 || rises.r20 != 0 || rises.r21 != 0;
+}
+
 }  // namespace
 
 DisplacedPoints::DisplacedPoints(const BuiltScene& scene) : scene_(scene)
@@ -31,17 +36,24 @@ DisplacedPoints::DisplacedPoints(const BuiltScene& scene) : scene_(scene)
 		heights_.push_back(std::move(heights));
 		height_maps_.push_back(record);
 	}
+	if (scene.uvs.empty())
+	{
+		no_uvs_.assign(scene.positions.size(), vec2(0));
+		no_densities_.assign(scene.positions.size(), 0);
+		no_height_maps_.assign(scene.materials.size(), NO_INDEX);
+	}
 	surface_.positions = addressOf(scene.positions);
 	surface_.directions = addressOf(scene.directions);
-	surface_.uvs = addressOf(scene.uvs);
-	surface_.densities = addressOf(scene.densities);
+	surface_.uvs = addressOf(scene.uvs.empty() ? no_uvs_ : scene.uvs);
+	surface_.densities = addressOf(scene.uvs.empty() ? no_densities_ : scene.densities);
 	surface_.triangles = addressOf(scene.triangles);
 	surface_.first_seam_edges = addressOf(scene.first_seam_edges);
 	surface_.seam_edges = addressOf(scene.seam_edges);
 	surface_.seam_corner_indices = addressOf(scene.seam_corner_indices);
 	surface_.seam_corners = addressOf(scene.seam_corners);
-	surface_.material_height_maps = addressOf(scene.material_height_maps);
+	surface_.material_height_maps = addressOf(scene.uvs.empty() ? no_height_maps_ : scene.material_height_maps);
 	surface_.height_maps = addressOf(height_maps_);
+	surface_.pn_directions = scene.traits.has_pn ? surface_.directions : 0;
 }
 
 DisplacedPoints::Triangle DisplacedPoints::triangle(const ClusterRecord& cluster, uint32_t index_in_cluster) const
@@ -50,7 +62,10 @@ DisplacedPoints::Triangle DisplacedPoints::triangle(const ClusterRecord& cluster
 	result.base = baseTriangle(surface_, cluster, index_in_cluster);
 	result.corners = triangleCorners(surface_, result.base);
 	result.on_seam = !scene_.seam_corner_indices.empty();
-	result.moves = result.base.height_map != NO_INDEX;
+	const TriangleCorners& at = result.corners;
+	result.is_curved =
+		scene_.traits.has_pn && isCurved(pnRises(at.position0, at.position1, at.position2, at.direction0, at.direction1, at.direction2));
+	result.moves = result.is_curved || result.base.height_map != NO_INDEX;
 	const auto includeMap = [&](uint32_t map, vec2 from, vec2 to) {
 		if (map == NO_INDEX)
 			return;

@@ -6,19 +6,21 @@
 namespace tessera
 {
 
-// Of a scene that displaces something. It must outlive this object and keep its arrays where they are.
+// Of a scene that displaces something or has PN triangles. It must outlive this object and keep its arrays where they are.
 class DisplacedPoints
 {
 public:
 	explicit DisplacedPoints(const BuiltScene& scene);
 
-	// What a base triangle is evaluated from; false in `moves` when its material does not displace and no other triangle's does on its border.
+	// What a base triangle is evaluated from; false in `moves` when its surface is flat: it is no curved PN triangle, its material does not displace
+	// and no other triangle's does on its border.
 	struct Triangle
 	{
 		BaseTriangle base;
 		TriangleCorners corners;
 		bool on_seam = false;
 		bool moves = false;
+		bool is_curved = false;
 		float longest_texels = 0;  // of its edges, in height texels
 	};
 	Triangle triangle(const ClusterRecord& cluster, uint32_t index_in_cluster) const;
@@ -37,6 +39,10 @@ private:
 	static float heightAt(const Heights& heights, vec2 uv);
 
 	const BuiltScene& scene_;
+	// Stand in for arrays that a scene without displacement does not have.
+	std::vector<vec2> no_uvs_;
+	std::vector<float> no_densities_;
+	std::vector<uint32_t> no_height_maps_;
 	std::vector<Heights> heights_;
 	std::vector<HeightMap> height_maps_;
 	Surface surface_ = {};

@@ -15,6 +15,7 @@ namespace
 {
 
 constexpr uint64_t kMostSamples = 8'000'000;  // about 0.2 us each, on one thread
+constexpr uint32_t kCurvedLevel = 5;          // samples of PN triangles, whatever is displaced: their deviation falls by two octaves a level
 constexpr uint32_t kChords = 16;
 constexpr float kMostRoughness = 15;
 
@@ -97,7 +98,8 @@ private:
 		forEachTriangle(scene_, [&](const ClusterRecord& cluster, uint32_t t, uint32_t index) {
 			const DisplacedPoints::Triangle triangle = points_.triangle(cluster, t);
 			const double level = std::ceil(std::log2(1.5 * std::max(double(triangle.longest_texels), 1.0)));
-			samples_levels_[index] = triangle.moves ? uint32_t(std::clamp(level, double(kLeastSamplesLevel), double(kMostSamplesLevel))) : 0;
+			const double least = triangle.is_curved ? kCurvedLevel : kLeastSamplesLevel;
+			samples_levels_[index] = triangle.moves ? uint32_t(std::clamp(level, least, double(kMostSamplesLevel))) : 0;
 		});
 	}
 
@@ -175,13 +177,13 @@ float roughnessOf(const DisplacedPoints& points, const DisplacedPoints::Triangle
 
 void buildEdgeDetails(BuiltScene& scene)
 {
-	if (!scene.uvs.empty())
+	if (!scene.uvs.empty() || scene.traits.has_pn)
 		DetailBuilder(scene).build();
 }
 
 void buildEdgeRoughness(BuiltScene& scene)
 {
-	if (scene.uvs.empty())
+	if (scene.uvs.empty() && !scene.traits.has_pn)
 		return;
 	scene.edge_roughness.assign(scene.triangles.size(), vec3(0));
 	const DisplacedPoints points(scene);

@@ -45,10 +45,10 @@ void findTraits(BuiltScene& scene)
 	traits.has_color_textures = !scene.color_textures.empty();
 	traits.has_vertex_colors = !scene.colors.empty();
 	const size_t bytes = scene.normals.size() * sizeof(vec3);
-	traits.directions_are_normals = traits.has_displacement && std::memcmp(scene.directions.data(), scene.normals.data(), bytes) == 0;
-	if (traits.zero_directions > 0)
-		scene.warnings.push_back(
-			fmt::format("{}: {} vertices have normals that cancel out: they are not displaced", scene.path, traits.zero_directions));
+	traits.directions_are_normals = !scene.directions.empty() && std::memcmp(scene.directions.data(), scene.normals.data(), bytes) == 0;
+	if (traits.zero_directions > 0 && !scene.directions.empty())
+		scene.warnings.push_back(fmt::format("{}: {} vertices have normals that cancel out: {}", scene.path, traits.zero_directions,
+											 traits.has_displacement ? "they are not displaced" : "PN triangles are flat there"));
 }
 
 }  // namespace tessera

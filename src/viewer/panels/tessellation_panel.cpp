@@ -7,7 +7,7 @@ namespace tessera::view
 namespace
 {
 
-constexpr std::string_view kOptions[] = { "rate", "metric", "max-split", "displacement-scale", "table" };
+constexpr std::string_view kOptions[] = { "rate", "metric", "max-split", "pn", "displacement-scale", "table" };
 
 void draw(Ui& ui, Session& session)
 {
@@ -19,6 +19,7 @@ void draw(Ui& ui, Session& session)
 		ui.slider("rate", "rate, px", options.rate, 0.25f, 64, optionTooltip(*findOption("rate")) + "\nkeys + and - halve and double it by quarters");
 	ui.option("metric", options);
 	ui.option("max-split", options);
+	ui.option("pn", options);
 	ui.slider("displacement-scale", "displacement-scale", options.displacement_scale, -4, 4, optionTooltip(*findOption("displacement-scale")));
 	ui.option("table", options);
 	const FrameResult& result = session.shown.result;
