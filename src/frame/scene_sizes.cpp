@@ -38,8 +38,8 @@ SceneSizes sizesOf(const BuiltScene& scene)
 
 DeviceTraits traitsOf(const Device& device)
 {
-	DeviceTraits traits = { device.gates.mesh_shader,           device.gates.buffer_atomics_64, device.gates.fragment_primitive_id, device.is_cpu,
-							device.limits.most_footprint_bytes, device.limits.small_first };
+	DeviceTraits traits = { device.gates.mesh_shader,           device.gates.buffer_atomics_64,  device.gates.fragment_primitive_id, device.is_cpu,
+							device.limits.most_footprint_bytes, device.limits.most_small_rate_px };
 	traits.rays = device.gates.rays();
 	if (!traits.rays)
 		return traits;

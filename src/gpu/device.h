@@ -31,9 +31,11 @@ struct DeviceLimits
 	uint32_t mesh_workgroup_threads = 32;  // what the device prefers for mesh shaders, within its limits
 	uint32_t max_mesh_rows = 65535;        // second dimension of a mesh draw
 	uint32_t max_image_extent = 0;
-	uint64_t max_buffer_bytes = 0;               // drivers crash beyond it
-	uint32_t loop_workgroups = 0;                // workgroups of a dispatch whose threads loop over a list
-	bool small_first = true;                     // triangles that one lane rasterises have a kernel of their own; not on a processor
+	uint64_t max_buffer_bytes = 0;  // drivers crash beyond it
+	uint32_t loop_workgroups = 0;   // workgroups of a dispatch whose threads loop over a list
+	// Up to this rate triangles that one lane rasterises have a kernel of their own. At coarser ones more items have others besides, and are
+	// evaluated twice. 0 on a processor, where a kernel more costs seconds to compile.
+	float most_small_rate_px = 2;
 	uint64_t most_footprint_bytes = 256u << 20;  // of height maps kept as footprints (frame/height_footprints.h); more: as texels
 	uint32_t compute_workgroup_threads = 0;      // of every pass that takes it as a constant; 0: each pass's own
 	// Of acceleration structures and ray tracing pipelines; 0 where the device has none.

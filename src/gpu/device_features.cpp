@@ -160,7 +160,8 @@ void describeDevice(Device& device)
 	limits.shader_group_handle_bytes = rays.shaderGroupHandleSize;
 	limits.shader_group_alignment = std::max(rays.shaderGroupBaseAlignment, rays.shaderGroupHandleAlignment);
 	// Enough workgroups to fill any GPU; a processor needs only some per core.
-	limits.small_first = !device.is_cpu;
+	if (device.is_cpu)
+		limits.most_small_rate_px = 0;
 	limits.loop_workgroups = device.is_cpu ? 64 : 4096;
 	if (mesh.maxMeshWorkGroupInvocations > 0)
 	{

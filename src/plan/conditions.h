@@ -127,14 +127,11 @@ inline constexpr Condition kFrustumCulls = { [](const PlanInput& input) { return
 											 "frustum culling is off, or rays may meet what it would remove" };
 inline constexpr Condition kSoft = { [](const PlanInput& input) { return usesSoft(input) && input.device.buffer_atomics_64; },
 									 "another producer of visibility is chosen, or the device lacks 64-bit buffer atomics" };
-// Above this rate too many triangles are larger than the kernel takes, and their items would be evaluated twice.
-constexpr float kLargestSmallRate = 8;
-inline constexpr Condition kSmallFirst = { [](const PlanInput& input) {
-											  return kSoft.holds(input) && kTessellates.holds(input) && input.device.small_first &&
-													 input.view.rate_px <= kLargestSmallRate;
-										  },
-										   "raster_micro takes all: nothing is tessellated, segments are of more than 8 pixels, or the device is a "
-										   "processor, where two kernels cost more than they save" };
+inline constexpr Condition kSmallFirst = {
+	[](const PlanInput& input) { return kSoft.holds(input) && kTessellates.holds(input) && input.view.rate_px <= input.device.most_small_rate_px; },
+	"raster_micro takes all: nothing is tessellated, segments are long, or the device is a processor, where "
+	"two kernels cost more than they save"
+};
 inline constexpr Condition kMayHide = { [](const PlanInput& input) { return culling(input).occlusion && kSoft.holds(input); },
 										"occlusion culling is off, attachments hold depth, or rays are traced" };
 inline constexpr Condition kLooksForHidden = { [](const PlanInput& input) { return kMayHide.holds(input) && input.view.looks_for_hidden; },

@@ -49,7 +49,7 @@ struct DeviceTraits
 	bool fragment_primitive_id = false;
 	bool is_cpu = false;
 	uint64_t most_footprint_bytes = 0;  // memory that height maps may take to be read faster
-	bool small_first = false;           // small triangles have a kernel of their own
+	float most_small_rate_px = 0;       // up to this rate small triangles have a kernel of their own
 	bool rays = false;                  // acceleration structures and ray tracing pipelines
 	// What the driver asks for, about: for structures per triangle and per instance, and for scratch memory per triangle.
 	double structure_triangle_bytes = 0, structure_instance_bytes = 0, structure_scratch_bytes = 0;

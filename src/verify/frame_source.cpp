@@ -60,7 +60,7 @@ public:
 		if (variation.height_texels)
 			device.limits.most_footprint_bytes = 0;
 		if (variation.other_kernels)
-			device.limits.small_first = !device.limits.small_first;
+			device.limits.most_small_rate_px = device.limits.most_small_rate_px > 0 ? 0.0f : 16.0f;
 	}
 	~OtherLimits() { device_.limits = before_; }
 	OtherLimits(const OtherLimits&) = delete;

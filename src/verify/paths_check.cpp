@@ -110,8 +110,8 @@ CheckResult checkPaths(const Screen& screen, std::span<const MicroTriangle> all,
 			continue;
 		const VisiblePixel& nearer = a.depth > b.depth ? a : b;
 		Place place = { nearer.identity.cluster(), nearer.identity.triangle(), { nearer.identity.words[3], nearer.identity.words[4] } };
-		place.what = fmt::format("{}: pixel {}, {} sees {}, not {}", what, x, y, b.covered() ? describe(b.identity) : "nothing",
-								 a.covered() ? describe(a.identity) : "nothing");
+		place.what = fmt::format("{}: pixel {}, {} sees {}, not {}; its centre is {:.3g} px from an edge", what, x, y,
+								 b.covered() ? describe(b.identity) : "nothing", a.covered() ? describe(a.identity) : "nothing", edge_px);
 		place.pixel = static_cast<uint32_t>(i);
 		result.violation(edge_px, place);
 	}

@@ -16,11 +16,11 @@ using smallFirst = GpuTest;
 // The device with or without the kernel, until the end of the scope.
 struct WithKernel
 {
-	explicit WithKernel(bool on) { gpu().limits.small_first = on; }
-	~WithKernel() { gpu().limits.small_first = before; }
+	explicit WithKernel(bool on) { gpu().limits.most_small_rate_px = on ? 16.0f : 0.0f; }
+	~WithKernel() { gpu().limits.most_small_rate_px = before; }
 	WithKernel(const WithKernel&) = delete;
 	WithKernel& operator=(const WithKernel&) = delete;
-	bool before = gpu().limits.small_first;
+	float before = gpu().limits.most_small_rate_px;
 };
 
 GpuFrame drawWith(bool kernel, const GpuScene& scene, const RenderOptions& options, const Camera& camera)
