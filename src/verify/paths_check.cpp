@@ -15,10 +15,12 @@ constexpr double kDepthRoom = 1e-4;  // relative: depth is interpolated in float
 
 using Seen = std::map<Identity, const MicroTriangle*>;
 
-// Depth of a micro-triangle's plane at a point of the picture, and how far that point is from its nearest edge.
+// Depth of a micro-triangle's plane at a point of the picture, what a move by kPathEdgeRoom_px changes of it, and how far that point is from
+// the triangle's nearest edge.
 struct Crossing
 {
 	double depth = 0;
+	double depth_room = 0;
 	double edge_px = 1e300;
 };
 
@@ -47,8 +49,12 @@ Crossing crossingOf(const Screen& screen, const MicroTriangle& t, double x, doub
 	Crossing crossing;
 	for (size_t i = 0; i < polygon.size(); ++i)
 		crossing.edge_px = std::min(crossing.edge_px, distanceToSegment(x, y, polygon[i], polygon[(i + 1) % polygon.size()]));
-	if (polygon.size() >= 3)
-		crossing.depth = planeDepth(x, y, { polygon[0], polygon[1], polygon[2] });
+	if (polygon.size() < 3)
+		return crossing;
+	const std::array<ScreenPoint, 3> corners = { polygon[0], polygon[1], polygon[2] };
+	crossing.depth = planeDepth(x, y, corners);
+	crossing.depth_room = std::abs(planeDepth(x + kPathEdgeRoom_px, y, corners) - crossing.depth) +
+						  std::abs(planeDepth(x, y + kPathEdgeRoom_px, corners) - crossing.depth);
 	return crossing;
 }
 
@@ -66,11 +72,12 @@ Seen disputed(std::span<const MicroTriangle> all, const VisiblePicture& expected
 	return seen;
 }
 
-// Distance of a pixel's centre from the nearest edge of what either sees there; 0 where both are at one depth.
+// Distance of a pixel's centre from the nearest edge of what either sees there; 0 where both are at one depth, as far as rasterisers that round
+// positions on screen can tell: of a surface seen at a flat angle that is not very far.
 double disagreement(const Screen& screen, const Seen& seen, const VisiblePixel& a, const VisiblePixel& b, double x, double y)
 {
 	double edge_px = 1e300;
-	std::vector<double> depths;
+	std::vector<Crossing> crossings;
 	for (const VisiblePixel* pixel : { &a, &b })
 	{
 		const auto at = seen.find(pixel->identity);
@@ -78,10 +85,13 @@ double disagreement(const Screen& screen, const Seen& seen, const VisiblePixel& 
 			continue;
 		const Crossing crossing = crossingOf(screen, *at->second, x, y);
 		edge_px = std::min(edge_px, crossing.edge_px);
-		depths.push_back(crossing.depth);
+		crossings.push_back(crossing);
 	}
-	const bool tie = depths.size() == 2 && std::abs(depths[0] - depths[1]) <= kDepthRoom * std::max(depths[0], depths[1]);
-	return tie ? 0 : edge_px;
+	if (crossings.size() < 2)
+		return edge_px;
+	const Crossing &first = crossings[0], &second = crossings[1];
+	const double room = kDepthRoom * std::max(first.depth, second.depth) + first.depth_room + second.depth_room;
+	return std::abs(first.depth - second.depth) <= room ? 0 : edge_px;
 }
 
 }  // namespace

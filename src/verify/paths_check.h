@@ -11,8 +11,8 @@ namespace tessera::verify
 inline constexpr double kPathEdgeRoom_px = 1.0 / 256;
 
 // `expected` and `found`: of two raster paths that drew the micro-triangles `all`. Violations: pixels that see another micro-triangle although
-// their centre lies farther than kPathEdgeRoom_px from every edge of the two that are seen, and they are not at one depth. Their size: that
-// distance, pixels.
+// their centre lies farther than kPathEdgeRoom_px from every edge of the two that are seen, and their depths differ by more than such a move
+// changes them. Their size: that distance, pixels.
 CheckResult checkPaths(const Screen& screen, std::span<const MicroTriangle> all, const VisiblePicture& expected, const VisiblePicture& found,
 					   const std::string& what);
 

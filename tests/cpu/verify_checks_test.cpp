@@ -317,6 +317,41 @@ TEST(verifyChecks, aPixelThatAnotherPathSeesOtherwiseIsFound)
 	EXPECT_EQ(checkPaths(drawn.screen(), drawn.set, exact, wrong, "").violations, 1u);
 }
 
+// Two planes that are seen at a flat angle and cross: which is nearer cannot be told within a pixel of that line, where positions are rounded.
+TEST(verifyChecks, surfacesAtAFlatAngleMayDifferWhereTheyCrossAndNowhereElse)
+{
+	const Drawn drawn(cubeScene(1), 8);
+	const View& view = drawn.view;
+	const dvec3 eye = dvec3(view.eye_high) + dvec3(view.eye_low);
+	const dvec3 right(view.right), up(view.up), forward(view.forward);
+	ASSERT_EQ(drawn.scene->built.instances[0].world, dmat4(1));
+	// At distance 1, so many times as deep as high; the line where they cross is 5 px above the middle.
+	const double px = 1 / (double(view.focal_y) * view.height_px / 2), cross = 5 * px;
+	const auto plane = [&](const MicroTriangle& like, double slope) {
+		MicroTriangle t = like;
+		const std::array<dvec2, 3> corners = { dvec2(-80 * px, 0), dvec2(80 * px, 0), dvec2(0, 60 * px) };
+		for (uint32_t c = 0; c < 3; ++c)
+			t.displaced[c] = vec3(eye + right * corners[c].x + up * corners[c].y + forward * (1 + 30 * cross + slope * (corners[c].y - cross)));
+		return t;
+	};
+	MicroSet set = { plane(drawn.set[0], 30), plane(drawn.set[1], 30.2) };
+	const Screen screen = drawn.screen();
+	const auto seeing = [&](const MicroTriangle& t) {
+		VisiblePicture picture = { view.width_px, view.height_px, {} };
+		picture.pixels.assign(size_t(view.width_px) * view.height_px, { 0.5f, identityOf(t) });
+		return picture;
+	};
+	// Where the line lies on screen: the plane's height there over its depth.
+	const double line_px = view.height_px / 2.0 - cross / (1 + 30 * cross) / px;
+	VisiblePicture near_line = seeing(set[0]), off_line = seeing(set[0]);
+	const auto at = [&](double y_px) {
+		return size_t(y_px) * view.width_px + view.width_px / 2;
+	};
+	near_line.pixels[at(line_px)] = off_line.pixels[at(line_px + 1.7)] = seeing(set[1]).pixels[0];
+	EXPECT_EQ(checkPaths(screen, set, seeing(set[0]), near_line, "").violations, 0u);
+	EXPECT_EQ(checkPaths(screen, set, seeing(set[0]), off_line, "").violations, 1u);
+}
+
 TEST(verifyChecks, aVertexOutsideItsBoundsIsNotConservative)
 {
 	Drawn drawn(coarseSphereScene(), 4);
