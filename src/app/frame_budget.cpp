@@ -46,7 +46,7 @@ RenderOptions budgetOptions(const RenderOptions& options, const BuiltScene& scen
 	RenderOptions kept = options;
 	if (kept.rate <= 0)
 		kept.rate = RenderOptions().rate;
-	kept.raster = chosenRaster({ kept, scene.traits, sizesOf(scene), traitsOf(device), {} });
+	kept.raster = chosenRaster({ kept, scene.traits, sizesOf(scene), traitsOf(device), {}, {} });
 	return kept;
 }
 

@@ -2,7 +2,10 @@
 
 #include "app/list_options.h"
 #include "app/option_text.h"
+#include "frame/frame_resources.h"
 #include "frame/lists.h"
+#include "pipeline/passes.h"
+#include "plan/forced.h"
 
 #include <algorithm>
 #include <array>
@@ -168,6 +171,18 @@ ordered_json budgetJson(const AppOptions& options)
 	return options.lists_bytes > 0 ? ordered_json(options.lists_bytes) : ordered_json();
 }
 
+Status parseForced(AppOptions& options, std::string_view text)
+{
+	const std::vector<std::string_view> names = forceNames(framePasses(), resourceDescs());
+	for (const std::string_view name : splitAt(text, ','))
+	{
+		if (std::find(names.begin(), names.end(), name) == names.end())
+			return fail(ExitCode::Usage, "the name of a pass, a shader feature or a resource is right: {}", joinNames(names));
+		options.forced.emplace_back(name);
+	}
+	return {};
+}
+
 const std::array kTable = {
 	OptionDesc{ "size", "WxH", "picture, in pixels", pairOf<&AppOptions::width_px, &AppOptions::height_px, kMostExtent>(), 0, 0, Rebuild::Buffers },
 	OptionDesc{ "eye", "X,Y,Z", "where the camera is, in world units", &AppOptions::eye },
@@ -204,6 +219,14 @@ const std::array kTable = {
 				Custom{ parseCapacity, printCapacities, capacitiesJson }, 0, 0, Rebuild::Buffers, true },
 	OptionDesc{ "budget", "BYTES", "memory of all lists together, such as 64MB; they then have fixed sizes within it",
 				Custom{ parseBudget, printBudget, budgetJson }, 0, 0, Rebuild::Buffers },
+	OptionDesc{ "force", "NAME,...",
+				"run, compile in or upload what the scene does not need (see info --print-plan): passes, shader features, resources. The picture "
+				"stays as it is; stats and reports show what it costs",
+				Custom{ parseForced, [](const AppOptions& options) { return options.forced; },
+						[](const AppOptions& options) {
+							return ordered_json(options.forced);
+						} },
+				0, 0, Rebuild::Buffers, true },
 	OptionDesc{ "displacement", "IMAGE[:FACTOR[:OFFSET[:MATERIAL]]]", "height map for a material, or for all", &AppOptions::displacements, 0, 0,
 				Rebuild::Scene, true },
 	OptionDesc{ "displacement-scale", "SCALE", "scales every displacement; 0 = none", &AppOptions::displacement_scale, -1e6, 1e6,
@@ -247,6 +270,10 @@ const std::array kTable = {
 				"render: keep each frame's GPU time at or below this at the finest rate that does; report: recommend the most exact setting that "
 				"takes at most this",
 				&AppOptions::max_ms, 1e-3, 1e6 },
+	OptionDesc{ "measure-left-out", "on|off",
+				"report: measure what leaving out saves, by drawing with everything forced on (--force) that the scene does not need, one after the "
+				"other",
+				choiceOf<&AppOptions::measure_left_out>(kOffOnNames) },
 	OptionDesc{ "resume", "", "report: go on with an interrupted one; runs that are there are not done again", &AppOptions::resume },
 	OptionDesc{ "device", "NAME|N", "part of a device's name, or its number; default: the fastest kind there is", &AppOptions::device, 0, 0,
 				Rebuild::Device },

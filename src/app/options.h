@@ -39,6 +39,7 @@ struct AppOptions : RenderOptions
 	std::optional<double> reference_rate;        // of the picture that the others are compared with
 	std::optional<double> max_error_px, max_ms;
 	bool resume = false;
+	bool measure_left_out = true;  // report: draw with each thing forced on that the scene does not need
 	std::string device;
 	bool pipeline_statistics = false;
 	bool validate = false, strict = false, quiet = false;

@@ -1,4 +1,5 @@
 #include "app/commands.h"
+#include "app/left_out.h"
 #include "app/list_options.h"
 #include "app/option_text.h"
 #include "app/report_sweep.h"
@@ -7,6 +8,7 @@
 #include "app/stats_json.h"
 #include "base/log.h"
 #include "frame/renderer.h"
+#include "report/metric_fronts.h"
 
 #include <algorithm>
 
@@ -16,8 +18,8 @@ namespace tessera
 namespace
 {
 
-constexpr std::string_view kFreeOptions[] = { "size",   "rate",   "raster", "rates",  "rasters", "sizes",  "max_error_px",
-											  "max_ms", "resume", "quiet",  "strict", "view",    "metric", "metrics" };
+constexpr std::string_view kFreeOptions[] = { "size",   "rate",  "raster", "rates", "rasters", "sizes",   "max_error_px", "max_ms",
+											  "resume", "quiet", "strict", "view",  "metric",  "metrics", "force",        "measure_left_out" };
 
 Status checkOptions(const AppOptions& options)
 {
@@ -72,26 +74,6 @@ std::string commandOf(const CommandLine& line, const BuiltScene& scene)
 	return text + " -o " + quoted(line.output.empty() ? "report" : line.output);
 }
 
-Status addLeftOut(const BuiltScene& scene, const AppOptions& options, const TessellationTable& table, const Device& device, report::ReportData& data)
-{
-	AppOptions first = optionsFor(options, sizesOf(options)[0]);
-	first.rate = static_cast<float>(ratesOf(options)[0]);
-	first.raster = rastersOf(options)[0];
-	TRY_ASSIGN(const Camera camera, chooseCamera(scene, first));
-	TRY_ASSIGN(const ScenePlan planned, planScene(scene, camera, first, traitsOf(device), table));
-	for (const DroppedPass& pass : planned.plan.dropped)
-		data.left_out.push_back({ "pass", std::string(pass.name), pass.reason, 0 });
-	for (const Feature& feature : planned.plan.features)
-		if (!feature.on)
-			data.left_out.push_back({ "shader feature", std::string(feature.name), std::string(feature.reason), 0 });
-	for (const PlannedResource& resource : planned.plan.resources)
-		if (!resource.kept)
-			data.left_out.push_back({ std::string(resource.kind), std::string(resource.name), resource.reason, resource.bytes });
-	data.bytes_kept = planned.bytesKept();
-	data.bytes_saved = planned.bytesSaved();
-	return {};
-}
-
 std::vector<std::pair<std::string, std::string>> sceneFacts(const BuiltScene& scene, const AppOptions& options)
 {
 	std::vector<std::pair<std::string, std::string>> facts = {
@@ -114,8 +96,7 @@ std::vector<std::pair<std::string, std::string>> sceneFacts(const BuiltScene& sc
 	return facts;
 }
 
-Result<report::ReportData> dataOf(const CommandLine& line, const BuiltScene& scene, const TessellationTable& table, const Device& device,
-								  SweepResult&& sweep, nlohmann::json facts)
+Result<report::ReportData> dataOf(const CommandLine& line, const BuiltScene& scene, const Device& device, SweepResult&& sweep, nlohmann::json facts)
 {
 	report::ReportData data;
 	data.scene = scene.path;
@@ -129,7 +110,6 @@ Result<report::ReportData> dataOf(const CommandLine& line, const BuiltScene& sce
 	data.runs = std::move(sweep.runs);
 	data.closed = std::move(sweep.closed);
 	data.limits = { line.options.max_error_px, line.options.max_ms };
-	TRY(addLeftOut(scene, line.options, table, device, data));
 	return data;
 }
 
@@ -139,15 +119,20 @@ Status measureAndWrite(const CommandLine& line, const BuiltScene& scene, const T
 	const nlohmann::json facts = factsOf(line, scene, device);
 	const std::filesystem::path log_path = folder / "runs.jsonl";
 	TRY_ASSIGN(report::RunLog log, line.options.resume ? report::RunLog::resume(log_path, facts) : report::RunLog::start(log_path, facts));
-	TRY_ASSIGN(SweepResult sweep, runSweep({ line.options, scene, table, device, folder }, log));
+	const SweepSubject subject = { line.options, scene, table, device, folder };
+	TRY_ASSIGN(SweepResult sweep, runSweep(subject, log));
 	const bool drew = std::any_of(sweep.runs.begin(), sweep.runs.end(), [](const report::Run& run) { return run.failure.empty(); });
 	if (!drew)
 		return fail(sweep.runs.empty() ? ExitCode::DeviceCannot : ExitCode::BadInput, "report: nothing could be drawn: {}",
 					sweep.runs.empty() ? sweep.closed.begin()->second : sweep.runs[0].failure);
-	TRY_ASSIGN(const report::ReportData data, dataOf(line, scene, table, device, std::move(sweep), facts));
+	TRY_ASSIGN(report::ReportData data, dataOf(line, scene, device, std::move(sweep), facts));
+	TRY(addLeftOut(subject, log, data));
 	TRY(report::writeReport(folder, data));
 	for (const report::Advice& advice : report::recommend(data.runs, data.limits))
 		logInfo("{}", advice.text);
+	for (const report::Cost cost : { report::Cost::Time, report::Cost::Triangles })
+		for (const report::MetricComparison& comparison : report::compareMetrics(data.runs, report::ErrorKind::SeenP99, cost))
+			logInfo("{}", report::describe(comparison, report::ErrorKind::SeenP99));
 	logInfo("wrote {}", (folder / "report.html").string());
 	return {};
 }

@@ -1,6 +1,7 @@
 #include "app/report_sweep.h"
 
 #include "app/list_options.h"
+#include "app/report_drawing.h"
 #include "app/scene_load.h"
 #include "base/log.h"
 #include "frame/renderer.h"
@@ -9,7 +10,6 @@
 #include "report/heat.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace tessera
 {
@@ -20,9 +20,6 @@ using report::Setting;
 namespace
 {
 
-constexpr uint32_t kFrames = 24, kWarmup = 8;  // when not asked for
-constexpr double kRunSeconds = 30;             // of drawing, for one run; at least kLeastFrames are drawn all the same
-constexpr uint32_t kLeastFrames = 3;
 constexpr uint64_t kMostMicroTriangles = 40'000'000;  // that are measured: about 6 GB
 constexpr uint32_t kHeatWidth = 480;
 
@@ -35,34 +32,9 @@ double referenceRate(const AppOptions& options)
 	return options.reference_rate.value_or(finest > 0 ? finest / 2 : 1);
 }
 
-report::RunCounts countsOf(const FrameCountsRead& counts)
+std::string joined(const std::vector<std::string>& names)
 {
-	return { counts.micro_triangles, counts.part_triangles,   counts.split_triangles,
-			 counts.full_clusters,   counts.visible_clusters, counts.covered_pixels };
-}
-
-using PassTimes = std::vector<std::pair<std::string, std::vector<double>>>;  // by pass, in the frame's order
-
-constexpr uint64_t report::RunCounts::*kCounts[] = { &report::RunCounts::micro_triangles,  &report::RunCounts::part_triangles,
-													 &report::RunCounts::split_triangles,  &report::RunCounts::full_clusters,
-													 &report::RunCounts::visible_clusters, &report::RunCounts::covered_pixels };
-
-void addCounts(report::RunCounts& sum, const report::RunCounts& counts)
-{
-	for (const auto count : kCounts)
-		sum.*count += counts.*count;
-}
-
-report::RunCounts meanCounts(report::RunCounts sum, uint64_t cameras)
-{
-	for (const auto count : kCounts)
-		sum.*count /= cameras;
-	return sum;
-}
-
-report::RunBytes bytesOf(const MemoryStats& memory)
-{
-	return { memory.lists, memory.geometry + memory.rays, memory.textures, memory.images };
+	return fmt::format("{}", fmt::join(names, "+"));
 }
 
 std::string oneLine(std::string text)
@@ -123,7 +95,7 @@ private:
 	Status runOne(const AppOptions& sized, double rate, Raster raster, size_t count)
 	{
 		const std::string raster_name(rasterName(raster));
-		const Setting setting = { rate, raster_name, std::string(metricName(sized.metric)), sized.width_px, sized.height_px };
+		const Setting setting = { rate, raster_name, std::string(metricName(sized.metric)), sized.width_px, sized.height_px, joined(sized.forced) };
 		if (const Run* done = log_.find(setting))
 		{
 			logInfo("[{}/{}] {}: is there already", number_, count, setting.label());
@@ -217,8 +189,7 @@ private:
 			TRY(makeReference(options));
 		run.reference = reference_;
 		TRY_ASSIGN(const std::unique_ptr<Renderer> renderer, rendererFor(options));
-		std::vector<DrawnView> views;
-		TRY(drawPath(*renderer, options, run, views));
+		TRY_ASSIGN(const std::vector<DrawnView> views, drawPath(*renderer, cameras_, options, progress_, run));
 		TRY_ASSIGN(const report::Picture picture, pictureOf(*renderer, options));
 		run.bytes = bytesOf(renderer->memory());
 		run.image = report::compareImages(picture, reference_picture_);
@@ -227,76 +198,6 @@ private:
 		run.picture = "pictures/" + name;
 		TRY(writePng(subject_.folder / run.picture, options.width_px, options.height_px, picture.rgba, 4));
 		return measureSurface(views, options, run);
-	}
-
-	// What a camera of the path was drawn at.
-	struct DrawnView
-	{
-		View view;
-		double rate_granted;
-	};
-
-	// The frames are shared out among the cameras; the first comes last, its picture is the one that is kept.
-	Status drawPath(Renderer& renderer, const AppOptions& options, Run& run, std::vector<DrawnView>& views)
-	{
-		const size_t count = cameras_.size();
-		run.cameras = static_cast<uint32_t>(count);
-		std::vector<double> frame_ms;
-		PassTimes pass_ms;
-		report::RunCounts sum;
-		views.resize(count);
-		for (size_t i = count; i-- > 0;)
-		{
-			TRY_ASSIGN(const FrameResult last, drawFrames(renderer, options, cameras_[i], run, frame_ms, pass_ms));
-			views[i] = { renderer.view(), last.rate_granted };
-			addCounts(sum, countsOf(last.counts));
-			run.rate_granted = std::max(run.rate_granted, last.rate_granted);
-			run.every_factor_one = run.every_factor_one || last.every_factor_one;
-			run.rounds = std::max(run.rounds, last.rounds);
-		}
-		run.counts = meanCounts(sum, count);
-		run.gpu_ms = report::timeFigures(std::move(frame_ms));
-		for (auto& [name, ms] : pass_ms)
-			run.passes.push_back({ name, report::timeFigures(std::move(ms)) });
-		return {};
-	}
-
-	// Warms up, then draws until there are enough frames or the camera's share of the run's time is over; gives the last.
-	Result<FrameResult> drawFrames(Renderer& renderer, const AppOptions& options, const Camera& camera, Run& run, std::vector<double>& frame_ms,
-								   PassTimes& pass_ms)
-	{
-		using Clock = std::chrono::steady_clock;
-		const bool asked = options.frames > 1 || options.warmup > 0;
-		const auto cameras = static_cast<uint32_t>(cameras_.size());
-		const uint32_t frames = ((asked ? options.frames : kFrames) + cameras - 1) / cameras;
-		const uint32_t warmup = ((asked ? options.warmup : kWarmup) + cameras - 1) / cameras;
-		const auto start = Clock::now();
-		const auto share = [&] {
-			return std::chrono::duration<double>(Clock::now() - start).count() * cameras / kRunSeconds;
-		};
-		progress_.begin(fmt::format("drawing {}", run.setting.label()), warmup + frames);
-		for (uint32_t i = 0; i < warmup && (i == 0 || share() < 0.25); ++i, ++run.warmup, progress_.advance())
-			TRY(renderer.renderFrame(camera));
-		FrameResult last;
-		for (uint32_t i = 0; i < frames && (i < std::min(frames, kLeastFrames) || share() < 1); ++i, ++run.frames, progress_.advance())
-		{
-			TRY_ASSIGN(last, renderer.renderFrame(camera));
-			frame_ms.push_back(last.gpu_ms);
-			addPasses(last.passes, pass_ms);
-		}
-		progress_.end();
-		return last;
-	}
-
-	static void addPasses(const std::vector<PassTime>& passes, PassTimes& pass_ms)
-	{
-		for (const PassTime& pass : passes)
-		{
-			auto found = std::find_if(pass_ms.begin(), pass_ms.end(), [&](const auto& entry) { return entry.first == pass.name; });
-			if (found == pass_ms.end())
-				found = pass_ms.insert(pass_ms.end(), { pass.name, {} });
-			found->second.push_back(pass.gpu_ms);
-		}
 	}
 
 	// Measured once per view and granted rate: raster paths draw the same micro-triangles.

@@ -3,6 +3,7 @@
 #include "frame/frame_resources.h"
 #include "frame/renderer.h"
 #include "pipeline/passes.h"
+#include "plan/forced.h"
 
 #include <algorithm>
 
@@ -41,7 +42,7 @@ Result<ScenePlan> planScene(const BuiltScene& scene, const Camera& camera, const
 							const TessellationTable& table)
 {
 	ScenePlan planned;
-	planned.input = { options, scene.traits, sizesOf(scene), device, {} };
+	planned.input = { options, scene.traits, sizesOf(scene, table), device, {}, {} };
 	TRY(listCapacities(planned.input));
 	ViewRequest request = { options.width_px, options.height_px };
 	request.rate_px = double(options.rate);
@@ -51,6 +52,7 @@ Result<ScenePlan> planScene(const BuiltScene& scene, const Camera& camera, const
 	const FactorBound bound = boundFactors(camera, scene, request, table.max_edge_segments, max_split);
 	planned.input.view.factors_above_one = bound.above_one;
 	planned.input.view.split_levels = bound.split_levels;
+	TRY_ASSIGN(planned.input.forced, forcedBy(options.forced, framePasses(), resourceDescs(), kWantedOutputs, planned.input));
 	TRY_ASSIGN(planned.plan, planFrame(framePasses(), resourceDescs(), kWantedOutputs, planned.input));
 	return planned;
 }

@@ -93,7 +93,7 @@ private:
 	Status makeHeightMaps(const PlanInput& input);
 	Status makeTextures();
 	Status makeImage(const ImageDesc& desc, uint32_t binding);
-	bool makesSceneArray(std::string_view name, Status& status);
+	bool makesSceneArray(std::string_view name, const PlanInput& input, Status& status);
 
 	Device& device_;
 	const BuiltScene& scene_;

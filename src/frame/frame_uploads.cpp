@@ -21,7 +21,9 @@ struct SceneArray
 {
 	std::string_view name;
 	std::span<const std::byte> (*bytes)(const BuiltScene& scene);
+	uint8_t nothing = 0;  // what every byte is in the array of a scene that has none, where it is kept all the same (--force)
 };
+constexpr uint8_t kNoIndex = 0xff;  // NO_INDEX, or white
 
 template <auto member>
 std::span<const std::byte> bytesOf(const BuiltScene& scene)
@@ -36,11 +38,11 @@ constexpr SceneArray kSceneArrays[] = {
 	{ "uvs", bytesOf<&BuiltScene::uvs> },
 	{ "densities", bytesOf<&BuiltScene::densities> },
 	{ "color_uvs", bytesOf<&BuiltScene::color_uvs> },
-	{ "colors", bytesOf<&BuiltScene::colors> },
+	{ "colors", bytesOf<&BuiltScene::colors>, kNoIndex },
 	{ "triangles", bytesOf<&BuiltScene::triangles> },
 	{ "first_seam_edges", bytesOf<&BuiltScene::first_seam_edges> },
 	{ "seam_edges", bytesOf<&BuiltScene::seam_edges> },
-	{ "seam_corner_indices", bytesOf<&BuiltScene::seam_corner_indices> },
+	{ "seam_corner_indices", bytesOf<&BuiltScene::seam_corner_indices>, kNoIndex },
 	{ "seam_corners", bytesOf<&BuiltScene::seam_corners> },
 	{ "clusters", bytesOf<&BuiltScene::clusters> },
 	{ "cluster_bounds", bytesOf<&BuiltScene::cluster_bounds> },
@@ -49,7 +51,7 @@ constexpr SceneArray kSceneArrays[] = {
 	{ "edge_roughness", bytesOf<&BuiltScene::edge_roughness> },
 	{ "meshes", bytesOf<&BuiltScene::meshes> },
 	{ "mesh_bounds", bytesOf<&BuiltScene::mesh_bounds> },
-	{ "material_height_maps", bytesOf<&BuiltScene::material_height_maps> },
+	{ "material_height_maps", bytesOf<&BuiltScene::material_height_maps>, kNoIndex },
 };
 
 // Vertices and triangles of a mesh, whose clusters cover both without gaps in some order.
@@ -198,7 +200,7 @@ Status FrameResources::makeSurface(const FramePlan& plan)
 	};
 	Surface surface = {};
 	surface.positions = kept("positions");
-	surface.directions = scene_.traits.directions_are_normals ? kept("normals") : kept("directions");
+	surface.directions = plan.keeps("directions") ? kept("directions") : kept("normals");
 	surface.uvs = kept("uvs");
 	surface.densities = kept("densities");
 	surface.triangles = kept("triangles");
@@ -249,12 +251,21 @@ Status FrameResources::makeTextures()
 	return {};
 }
 
-bool FrameResources::makesSceneArray(std::string_view name, Status& status)
+bool FrameResources::makesSceneArray(std::string_view name, const PlanInput& input, Status& status)
 {
 	const auto found = std::find_if(std::begin(kSceneArrays), std::end(kSceneArrays), [&](const SceneArray& array) { return array.name == name; });
 	if (found == std::end(kSceneArrays))
 		return false;
-	status = upload(name, found->bytes(scene_));
+	const std::span<const std::byte> bytes = found->bytes(scene_);
+	if (!bytes.empty())
+	{
+		status = upload(name, bytes);
+		return true;
+	}
+	const std::span<const ResourceDesc> descs = resourceDescs();
+	const auto desc = std::find_if(descs.begin(), descs.end(), [&](const ResourceDesc& d) { return d.name == name; });
+	CHECK(desc != descs.end(), "no resource '{}'", name);
+	status = upload(name, std::vector(desc->bytes(input), std::byte(found->nothing)));
 	return true;
 }
 
@@ -267,7 +278,7 @@ static uint64_t pyramidBytes(const PlanInput& input)
 Status FrameResources::make(std::string_view name, const PlanInput& input)
 {
 	Status status;
-	if (makesSceneArray(name, status))
+	if (makesSceneArray(name, input, status))
 		return status;
 	if (const ListDesc* list = findList(name))
 		return allocate(name, listBufferBytes(*list, capacities_[list->index]));

@@ -6,6 +6,7 @@
 #include "frame/rate_controller.h"
 #include "frame/rate_steps.h"
 #include "plan/conditions.h"
+#include "plan/forced.h"
 #include "scene/factor_rule.h"
 
 #include <algorithm>
@@ -29,12 +30,13 @@ public:
 		: device_(device), scene_(scene), table_(table), passes_(passes), outputs_(std::begin(kWantedOutputs), std::end(kWantedOutputs))
 	{
 		outputs_.insert(outputs_.end(), more_outputs.begin(), more_outputs.end());
-		input_ = { options, scene.traits, sizesOf(scene), traitsOf(device), {} };
+		input_ = { options, scene.traits, sizesOf(scene, table), traitsOf(device), {}, {} };
 	}
 
 	Status initialize()
 	{
 		TRY(checkGates(device_, input_));
+		TRY(force(input_));
 		TRY_ASSIGN(resources_, FrameResources::create(device_, scene_, table_, input_));
 		TRY_ASSIGN(runner_, PassRunner::create(device_, *resources_));
 		wanted_ = outputs_;
@@ -94,6 +96,7 @@ public:
 		PlanInput input = input_;
 		input.options = options;
 		TRY(checkGates(device_, input));
+		TRY(force(input));
 		TRY(resources_->refit(input_, input));
 		input_ = std::move(input);
 		rate_changed_ = true;
@@ -154,6 +157,14 @@ public:
 	}
 
 private:
+	// With any view: what one needs and another does not is forced for that alone.
+	Status force(PlanInput& input) const
+	{
+		input.view = {};
+		TRY_ASSIGN(input.forced, forcedBy(input.options.forced, passes_, resourceDescs(), outputs_, input));
+		return {};
+	}
+
 	ViewRequest requestFor(const Attempt& attempt) const
 	{
 		ViewRequest request = { input_.options.width_px, input_.options.height_px };
@@ -175,6 +186,7 @@ private:
 		input_.view.split_levels = bound.split_levels > 0 || levels_needed_ > 0 ? std::max(bound.split_levels, levels_needed_) : 0;
 		input_.view.rounds = attempt.rounds;
 		// What hides what is seen from where it is drawn, which says nothing of what the other camera sees.
+		input_.view.is_seen_elsewhere = drawn_from_.has_value();
 		input_.view.looks_for_hidden = occlusion_.looks() && !drawn_from_;
 		input_.view.rate_px = request.rate_px;
 		if (drawn_from_)
@@ -307,7 +319,7 @@ private:
 	// split was expected at all, there was no list for them: this frame is drawn again.
 	void judgeLevels(const FrameCounts& counts)
 	{
-		const uint32_t levels = kSplits.holds(input_) ? input_.view.split_levels : 0;
+		const uint32_t levels = splitLevels(input_);
 		if ((counts.levels_missing == 0 && counts.split_count[levels] == 0) || levels + 2 >= MAX_SPLIT_LEVELS)
 			return;
 		levels_needed_ = levels + 2;

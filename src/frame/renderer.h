@@ -86,8 +86,9 @@ public:
 	virtual Result<size_t> replaceShaders(std::span<const Shader> shaders) = 0;
 };
 
-// What the planner needs to know of a scene's arrays.
-SceneSizes sizesOf(const BuiltScene& scene);
+// What the planner needs to know of the arrays of a scene and a table.
+SceneSizes sizesOf(const BuiltScene& scene);  // without the table's
+SceneSizes sizesOf(const BuiltScene& scene, const TessellationTable& table);
 DeviceTraits traitsOf(const Device& device);
 
 }  // namespace tessera

@@ -49,6 +49,11 @@ uint64_t perPixel(const PlanInput& input)
 {
 	return uint64_t(input.options.width_px) * input.options.height_px * bytes;
 }
+template <auto count, uint32_t bytes>
+uint64_t ofTable(const PlanInput& input)
+{
+	return input.sizes.*count * bytes;
+}
 template <uint64_t bytes>
 uint64_t fixedBytes(const PlanInput&)
 {
@@ -99,7 +104,7 @@ constexpr ResourceDesc kResources[] = {
 	{ "meshes", "buffer", perMesh<sizeof(MeshRecord)> },
 	{ "mesh_bounds", "buffer", perMesh<sizeof(DisplacedBounds)> },
 	{ "instances", "buffer", perInstance<sizeof(InstanceRecord)> },
-	{ "materials", "buffer", perMaterial<40> },
+	{ "materials", "buffer", perMaterial<sizeof(MaterialRecord)> },
 	{ "material_flags", "buffer", perMaterial<4> },
 	{ "material_height_maps", "buffer", perMaterial<4> },
 	{ "height_maps", "buffer",
@@ -114,9 +119,9 @@ constexpr ResourceDesc kResources[] = {
 	  [](const PlanInput& input) -> uint64_t {
 		  return input.sizes.color_texture_bytes;
 	  } },
-	{ "patterns", "buffer", fixedBytes<286 * sizeof(PatternRange)> },
-	{ "table_vertices", "buffer", fixedBytes<7059 * 4> },
-	{ "table_triangles", "buffer", fixedBytes<8398 * 4> },
+	{ "patterns", "buffer", ofTable<&SceneSizes::patterns, sizeof(PatternRange)> },
+	{ "table_vertices", "buffer", ofTable<&SceneSizes::table_vertices, sizeof(uint32_t)> },
+	{ "table_triangles", "buffer", ofTable<&SceneSizes::table_triangles, sizeof(uint32_t)> },
 	{ "view", "buffer", fixedBytes<sizeof(View)> },
 	{ "surface", "buffer", fixedBytes<sizeof(Surface)> },
 	{ "shading", "buffer", fixedBytes<sizeof(ShadingData)> },

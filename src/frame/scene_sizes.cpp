@@ -36,6 +36,15 @@ SceneSizes sizesOf(const BuiltScene& scene)
 	return sizes;
 }
 
+SceneSizes sizesOf(const BuiltScene& scene, const TessellationTable& table)
+{
+	SceneSizes sizes = sizesOf(scene);
+	sizes.patterns = table.configs.size();
+	sizes.table_vertices = table.vertices.size();
+	sizes.table_triangles = table.triangles.size();
+	return sizes;
+}
+
 DeviceTraits traitsOf(const Device& device)
 {
 	DeviceTraits traits = { device.gates.mesh_shader,           device.gates.buffer_atomics_64,  device.gates.fragment_primitive_id, device.is_cpu,

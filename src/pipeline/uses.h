@@ -22,12 +22,6 @@ constexpr auto joinUses(const std::array<Use, counts>&... groups)
 	return all;
 }
 
-// Directions that are the normals bit for bit are not held twice.
-inline constexpr Condition kOwnDirections = { [](const PlanInput& input) { return kUneven.holds(input) && !input.scene.directions_are_normals; },
-											  "nothing needs directions, or every one equals the normal" };
-inline constexpr Condition kNormalsAsDirections = { [](const PlanInput& input) { return kUneven.holds(input) && input.scene.directions_are_normals; },
-													"no direction is read from the normals" };
-
 // What evaluating micro-vertices reads.
 constexpr std::array<Use, 19> surfaceUses(Access access)
 {

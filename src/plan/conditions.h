@@ -1,6 +1,7 @@
 // The conditions that passes and uses are kept under, each with what is said when it does not hold.
 #pragma once
 #include "plan/pass.h"
+#include "shared/geometry.h"
 
 namespace tessera
 {
@@ -88,8 +89,21 @@ inline CullOptions culling(const PlanInput& input)
 	return cull;
 }
 
+// Why --force may not make a condition hold.
+inline constexpr std::string_view kIsAnAlternative = "it stands for what is done now, not beside it: --raster compares them";
+inline constexpr std::string_view kIsLessCode = "it is what is known where the general code is left out: force that";
+inline constexpr std::string_view kNeedsDisplacement = "nothing is displaced: force HAS_DISPLACEMENT with it";
+inline constexpr std::string_view kTracesNothing = "no ray would be traced: --raster rt, --shadows and --ao show what rays cost";
+inline constexpr std::string_view kChoosesTriangles = "--metric decides which triangles there are";
+// Nothing but time depends on it.
+inline bool always(const PlanInput&)
+{
+	return true;
+}
+
 inline constexpr Condition kDisplaced = {
-	[](const PlanInput& input) { return input.scene.has_displacement && input.options.displacement_scale != 0; }, "no material displaces"
+	[](const PlanInput& input) { return input.scene.has_displacement && input.options.displacement_scale != 0; }, "no material displaces",
+	[](const PlanInput& input) { return !input.scene.has_displacement; }, "--displacement-scale is 0, and normals would be those of displacement"
 };
 inline constexpr Condition kPn = { [](const PlanInput& input) { return input.scene.has_pn && input.options.rate > 0; },
 								   "--pn is off, nothing is tessellated, or no triangle is curved" };
@@ -98,86 +112,146 @@ inline constexpr Condition kUneven = { [](const PlanInput& input) { return kDisp
 									   "no material displaces, and triangles are flat" };
 inline constexpr Condition kHeightFootprints = {
 	[](const PlanInput& input) { return kDisplaced.holds(input) && input.sizes.height_footprint_bytes <= input.device.most_footprint_bytes; },
-	"nothing is displaced, or the height maps are too large to be kept with each texel's neighbours"
+	"nothing is displaced, or the height maps are too large to be kept with each texel's neighbours", nullptr,
+	"the device has no room for it, or nothing is displaced"
 };
-inline constexpr Condition kSeams = { [](const PlanInput& input) {
-										 return kDisplaced.holds(input) && input.scene.seam_edges + input.scene.seam_corners > 0;
-									 },
-									  "no displaced edge or corner lies on a seam" };
+inline constexpr Condition kSeams = {
+	[](const PlanInput& input) { return kDisplaced.holds(input) && input.scene.seam_edges + input.scene.seam_corners > 0; },
+	"no displaced edge or corner lies on a seam", [](const PlanInput& input) { return kDisplaced.holds(input); }, kNeedsDisplacement
+};
 inline constexpr Condition kDetail = { [](const PlanInput& input) { return input.options.metric == Metric::Detail && kUneven.holds(input); },
-									   "another metric is chosen, or the surface is flat" };
+									   "another metric is chosen, or the surface is flat", nullptr, kChoosesTriangles };
 inline constexpr Condition kDisplacedEdges = { [](const PlanInput& input) {
 												  return input.options.metric == Metric::Displaced && kUneven.holds(input);
 											  },
-											   "another metric is chosen, or the surface is flat" };
+											   "another metric is chosen, or the surface is flat", nullptr, kChoosesTriangles };
 inline constexpr Condition kMetricTables = { [](const PlanInput& input) { return kDetail.holds(input) || kDisplacedEdges.holds(input); },
-											 "the metric needs no tables" };
+											 "the metric needs no tables", nullptr, kChoosesTriangles };
 // Where the surface is flat, the metric `detail` has every factor 1.
 inline constexpr Condition kTessellates = { [](const PlanInput& input) {
 											   return input.options.rate > 0 && input.view.factors_above_one &&
 													  (input.options.metric != Metric::Detail || kUneven.holds(input));
 										   },
-											"no edge can get more than one segment at this rate and camera" };
-inline constexpr Condition kDoesNotTessellate = { [](const PlanInput& input) { return !kTessellates.holds(input); }, "cluster_classify writes it" };
+											"no edge can get more than one segment at this rate and camera",
+											[](const PlanInput& input) { return input.options.rate > 0; }, "--rate 0 asks for no tessellation" };
+inline constexpr Condition kDoesNotTessellate = { [](const PlanInput& input) { return !kTessellates.holds(input); }, "cluster_classify writes it",
+												  nullptr, kIsAnAlternative };
 inline constexpr Condition kSplits = { [](const PlanInput& input) { return kTessellates.holds(input) && input.view.split_levels > 0; },
-									   "no edge can exceed the table at this rate and camera" };
+									   "no edge can exceed the table at this rate and camera",
+									   [](const PlanInput& input) { return kTessellates.holds(input); },
+									   "nothing is tessellated: force cluster_classify with it" };
 inline constexpr Condition kCulls = { [](const PlanInput& input) { return culling(input).any(); },
 									  "culling is off, or rays may meet what it would remove" };
 inline constexpr Condition kFrustumCulls = { [](const PlanInput& input) { return culling(input).frustum; },
 											 "frustum culling is off, or rays may meet what it would remove" };
 inline constexpr Condition kSoft = { [](const PlanInput& input) { return usesSoft(input) && input.device.buffer_atomics_64; },
-									 "another producer of visibility is chosen, or the device lacks 64-bit buffer atomics" };
+									 "another producer of visibility is chosen, or the device lacks 64-bit buffer atomics", nullptr,
+									 kIsAnAlternative };
 inline constexpr Condition kSmallFirst = {
 	[](const PlanInput& input) { return kSoft.holds(input) && kTessellates.holds(input) && input.view.rate_px <= input.device.most_small_rate_px; },
 	"raster_micro takes all: nothing is tessellated, segments are long, or the device is a processor, where "
-	"two kernels cost more than they save"
+	"two kernels cost more than they save",
+	[](const PlanInput& input) { return kSoft.holds(input) && kTessellates.holds(input); }, "only raster_micro's work can be shared"
 };
 inline constexpr Condition kMayHide = { [](const PlanInput& input) { return culling(input).occlusion && kSoft.holds(input); },
 										"occlusion culling is off, attachments hold depth, or rays are traced" };
 inline constexpr Condition kLooksForHidden = { [](const PlanInput& input) { return kMayHide.holds(input) && input.view.looks_for_hidden; },
-											   "occlusion culling is off, attachments hold depth, or the last frames hid too little for its cost" };
+											   "occlusion culling is off, attachments hold depth, or the last frames hid too little for its cost",
+											   [](const PlanInput& input) { return kMayHide.holds(input) && !input.view.is_seen_elsewhere; },
+											   "--cull, --raster or rays decide it" };
 inline constexpr Condition kPartsMayHide = { [](const PlanInput& input) { return kMayHide.holds(input) && kTessellates.holds(input); },
 											 "occlusion culling is off, or nothing is tessellated" };
 inline constexpr Condition kDisplacedPartsMayHide = { [](const PlanInput& input) { return kPartsMayHide.holds(input) && kDisplaced.holds(input); },
 													  "no part is displaced, or none is tested for being hidden" };
 inline constexpr Condition kMesh = { [](const PlanInput& input) { return usesMesh(input) && input.device.mesh_shader; },
-									 "another producer of visibility is chosen, or the device lacks VK_EXT_mesh_shader" };
-inline constexpr Condition kIndexed = { usesIndexed, "another producer of visibility is chosen" };
+									 "another producer of visibility is chosen, or the device lacks VK_EXT_mesh_shader", nullptr, kIsAnAlternative };
+inline constexpr Condition kIndexed = { usesIndexed, "another producer of visibility is chosen", nullptr, kIsAnAlternative };
 inline constexpr Condition kDraws = { [](const PlanInput& input) { return usesMesh(input) || usesIndexed(input); },
-									  "compute or rays find visibility and write a buffer" };
-inline constexpr Condition kBuffered = { [](const PlanInput& input) { return !kDraws.holds(input); }, "attachments hold depth and payloads" };
+									  "compute or rays find visibility and write a buffer", nullptr, kIsAnAlternative };
+inline constexpr Condition kBuffered = { [](const PlanInput& input) { return !kDraws.holds(input); }, "attachments hold depth and payloads", nullptr,
+										 kIsAnAlternative };
+inline constexpr Condition kMixedSides = { [](const PlanInput& input) { return input.scene.has_single_sided && input.scene.has_double_sided; },
+										   "all materials show the same sides", always };
 // Rays.
 inline constexpr Condition kRays = { [](const PlanInput& input) { return tracesRays(input) && input.device.rays; },
-									 "no rays are traced, or the device lacks acceleration structures or ray tracing pipelines" };
+									 "no rays are traced, or the device lacks acceleration structures or ray tracing pipelines", nullptr,
+									 kTracesNothing };
 inline constexpr Condition kRt = { [](const PlanInput& input) { return usesRt(input) && input.device.rays; },
-								   "another producer of visibility is chosen, or the device lacks acceleration structures or ray tracing pipelines" };
+								   "another producer of visibility is chosen, or the device lacks acceleration structures or ray tracing pipelines",
+								   nullptr, kTracesNothing };
 inline constexpr Condition kShadows = { [](const PlanInput& input) { return tracesShadows(input) && input.device.rays; },
 										"--shadows is off, the view shows no light, or the device cannot trace rays" };
 inline constexpr Condition kAmbientOcclusion = { [](const PlanInput& input) { return tracesAmbient(input) && input.device.rays; },
 												 "--ao is 0, the view shows no light, or the device cannot trace rays" };
-inline constexpr Condition kRtMixedSides = { [](const PlanInput& input) {
-												return kRt.holds(input) && input.scene.has_single_sided && input.scene.has_double_sided;
-											},
-											 "all materials show the same sides" };
+inline constexpr Condition kRtMixedSides = { [](const PlanInput& input) { return kRt.holds(input) && kMixedSides.holds(input); },
+											 "all materials show the same sides", nullptr, kTracesNothing };
 inline constexpr Condition kRtMixedSidesOfParts = { [](const PlanInput& input) { return kRtMixedSides.holds(input) && kTessellates.holds(input); },
-													"all materials show the same sides, or nothing is tessellated" };
+													"all materials show the same sides, or nothing is tessellated", nullptr, kTracesNothing };
 // Micro-vertices and indices in memory: for those who do not evaluate their own.
 inline constexpr Condition kKeepsVertices = { [](const PlanInput& input) { return kDraws.holds(input) || kRays.holds(input); },
-											  "raster_micro evaluates its own vertices, and nothing else needs any" };
+											  "raster_micro evaluates its own vertices, and nothing else needs any", nullptr, kIsAnAlternative };
 inline constexpr Condition kExpands = { [](const PlanInput& input) { return usesIndexed(input) || kRays.holds(input); },
-										"nothing is drawn by indices, and no rays are traced" };
+										"nothing is drawn by indices, and no rays are traced", nullptr, kIsAnAlternative };
 // Every cluster of the scene is drawn as stored: then each has a place of its own in what is expanded, and what rays are traced through can be
 // refitted. (Mesh shaders find clusters at the places that they took when they were listed.)
 inline constexpr Condition kKeepsPlaces = { [](const PlanInput& input) {
 											   return kRays.holds(input) && !kTessellates.holds(input) && !culling(input).any() &&
 													  input.view.rounds == 1 && !usesMesh(input);
 										   },
-											"no rays are traced, something is tessellated, culled or drawn in rounds, or mesh shaders draw" };
+											"no rays are traced, something is tessellated, culled or drawn in rounds, or mesh shaders draw", nullptr,
+											kTracesNothing };
 inline constexpr Condition kPrimitiveId = { [](const PlanInput& input) { return input.device.fragment_primitive_id; },
 											"the device lacks primitive ids in fragment shaders (geometryShader) or 32-bit indices" };
 inline constexpr Condition kColorTextures = { [](const PlanInput& input) { return input.scene.has_color_textures; },
-											  "no material has a base colour texture" };
-inline constexpr Condition kVertexColors = { [](const PlanInput& input) { return input.scene.has_vertex_colors; }, "no primitive has COLOR_0" };
+											  "no material has a base colour texture", always };
+inline constexpr Condition kVertexColors = { [](const PlanInput& input) { return input.scene.has_vertex_colors; }, "no primitive has COLOR_0",
+											 always };
+inline constexpr Condition kMirroredInstances = { [](const PlanInput& input) { return input.scene.has_mirrored_instances; },
+												  "no instance is mirrored", always };
+inline constexpr Condition kSingleSided = { [](const PlanInput& input) { return input.scene.has_single_sided; }, "every material is double-sided",
+											nullptr, kIsLessCode };
+inline constexpr Condition kAsksForTessellation = { [](const PlanInput& input) { return input.options.rate > 0; }, "the rate is 0" };
+inline constexpr Condition kShadedView = { [](const PlanInput& input) { return input.options.view == ViewMode::Shaded && !input.options.wireframe; },
+										   "a debug view or the wireframe is chosen" };
+// Height maps: the code for each kind of texel and wrapping.
+inline bool isDisplaced(const PlanInput& input)
+{
+	return kDisplaced.holds(input);
+}
+inline constexpr Condition kHeightU8 = { [](const PlanInput& input) { return input.scene.has_height_u8; }, "no height map has 8-bit texels",
+										 isDisplaced, kNeedsDisplacement };
+inline constexpr Condition kHeightU16 = { [](const PlanInput& input) { return input.scene.has_height_u16; }, "no height map has 16-bit texels",
+										  isDisplaced, kNeedsDisplacement };
+inline constexpr Condition kHeightF32 = { [](const PlanInput& input) { return input.scene.has_height_f32; }, "no height map has float texels",
+										  isDisplaced, kNeedsDisplacement };
+inline constexpr Condition kWrapRepeat = { [](const PlanInput& input) { return input.scene.has_wrap_repeat; }, "no height map repeats", isDisplaced,
+										   kNeedsDisplacement };
+inline constexpr Condition kWrapClamp = { [](const PlanInput& input) { return input.scene.has_wrap_clamp; }, "no height map is clamped", isDisplaced,
+										  kNeedsDisplacement };
+inline constexpr Condition kWrapMirror = { [](const PlanInput& input) { return input.scene.has_wrap_mirror; }, "no height map repeats mirrored",
+										   isDisplaced, kNeedsDisplacement };
+inline constexpr Condition kManyHeightMaps = { [](const PlanInput& input) { return input.sizes.height_maps > UNIFORM_HEIGHT_MAPS; },
+											   "the height maps fit into a uniform buffer", isDisplaced, kNeedsDisplacement };
+// Directions that are the normals bit for bit are not held twice.
+inline constexpr Condition kOwnDirections = { [](const PlanInput& input) { return kUneven.holds(input) && !input.scene.directions_are_normals; },
+											  "nothing needs directions, or every one equals the normal",
+											  [](const PlanInput& input) { return kUneven.holds(input); }, kNeedsDisplacement };
+inline constexpr Condition kDirectionsAreNormals = { [](const PlanInput& input) {
+														return input.scene.directions_are_normals && !input.forces(kOwnDirections);
+													},
+													 "some direction differs from the normal", nullptr, kIsLessCode };
+inline constexpr Condition kNormalsAsDirections = { [](const PlanInput& input) { return kUneven.holds(input) && kDirectionsAreNormals.holds(input); },
+													"no direction is read from the normals", nullptr, kIsLessCode };
+inline constexpr Condition kDetailMetric = { [](const PlanInput& input) { return input.options.metric == Metric::Detail; },
+											 "another metric is chosen", nullptr, kChoosesTriangles };
+inline constexpr Condition kDisplacedMetric = { [](const PlanInput& input) { return input.options.metric == Metric::Displaced; },
+												"another metric is chosen", nullptr, kChoosesTriangles };
 inline constexpr Condition kNormals = { [](const PlanInput& input) { return input.options.smooth_normals; }, "faceted shading needs no normals" };
+
+// Levels of triangle_split that are recorded; forced on, there is one.
+inline uint32_t splitLevels(const PlanInput& input)
+{
+	return kSplits.holds(input) ? std::max(input.view.split_levels, 1u) : 0;
+}
 
 }  // namespace tessera

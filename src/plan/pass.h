@@ -3,8 +3,10 @@
 #include "plan/render_options.h"
 #include "scene/scene.h"
 
+#include <algorithm>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace tessera
 {
@@ -38,7 +40,8 @@ struct SceneSizes
 	uint64_t most_groups_per_mesh = 0;  // groups of CLUSTER_GROUP_SIZE clusters
 	uint64_t instanced_clusters = 0;    // clusters over all instances
 	uint64_t height_texel_bytes = 0, height_footprint_bytes = 0, color_texture_bytes = 0, seam_edges = 0, seam_corners = 0, height_maps = 0;
-	double world_radius = 0;  // of the displaced bounds
+	double world_radius = 0;                                         // of the displaced bounds
+	uint64_t patterns = 0, table_vertices = 0, table_triangles = 0;  // of the tessellation table
 };
 
 // What the planner needs of the device: the gates that decide passes.
@@ -58,11 +61,36 @@ struct DeviceTraits
 // What the host knows of the view before it is drawn.
 struct ViewTraits
 {
-	bool factors_above_one = true;  // false: no edge of the scene can reach factor 2 from here
-	uint32_t split_levels = 0;      // most levels of triangle_split that can occur; 0: no factor above the table
-	double rate_px = 0;             // granted rate
-	bool looks_for_hidden = true;   // false: the last frames hid too little to pay for the passes that look for it
-	uint32_t rounds = 1;            // a frame in more than one round draws its clusters in turns (C2)
+	bool factors_above_one = true;   // false: no edge of the scene can reach factor 2 from here
+	uint32_t split_levels = 0;       // most levels of triangle_split that can occur; 0: no factor above the table
+	double rate_px = 0;              // granted rate
+	bool looks_for_hidden = true;    // false: the last frames hid too little to pay for the passes that look for it
+	bool is_seen_elsewhere = false;  // from another camera than it is culled for: then nothing is looked for
+	uint32_t rounds = 1;             // a frame in more than one round draws its clusters in turns (C2)
+};
+
+struct PlanInput;
+
+// Something that must hold for a pass, a use or a shader feature to be kept, and what is said when it does not.
+struct Condition
+{
+	bool (*is_met)(const PlanInput& input);
+	std::string_view reason_if_not;
+	// --force: whether it may hold although nothing needs it, the picture staying as it is (nullptr: never), and what is said when it may not.
+	bool (*can_be_forced)(const PlanInput& input) = nullptr;
+	std::string_view why_not_forced = "options decide it, not the scene";
+
+	bool isForceable(const PlanInput& input) const { return can_be_forced && can_be_forced(input); }
+	bool holds(const PlanInput& input) const;  // met, or forced where it can be
+};
+
+// What is kept though nothing needs it (plan/forced.h).
+struct Forced
+{
+	std::vector<const Condition*> conditions;
+	std::vector<std::string_view> outputs;  // of passes that nothing else reads
+
+	bool empty() const { return conditions.empty() && outputs.empty(); }
 };
 
 struct PlanInput
@@ -72,14 +100,18 @@ struct PlanInput
 	SceneSizes sizes;
 	DeviceTraits device;
 	ViewTraits view;
+	Forced forced;
+
+	bool forces(const Condition& condition) const
+	{
+		return std::find(forced.conditions.begin(), forced.conditions.end(), &condition) != forced.conditions.end();
+	}
 };
 
-// Something that must hold for a pass or a use to be kept, and what is said when it does not.
-struct Condition
+inline bool Condition::holds(const PlanInput& input) const
 {
-	bool (*holds)(const PlanInput& input);
-	std::string_view reason_if_not;
-};
+	return is_met(input) || (input.forces(*this) && isForceable(input));
+}
 
 struct Use
 {
@@ -106,7 +138,9 @@ struct Feature
 	std::string_view name;  // constant's name in the shaders
 	uint32_t constant_id = 0;
 	bool on = false;
-	std::string_view reason;  // why it is off
+	std::string_view reason;               // why it is off, or would be were it not forced
+	const Condition* condition = nullptr;  // that it is on under
+	bool forced = false;                   // on by --force alone
 };
 
 // A buffer or image that passes use: how large it is when kept.

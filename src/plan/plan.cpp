@@ -148,7 +148,7 @@ void planResources(std::span<const PassDesc* const> passes, std::span<const Reso
 	{
 		const bool kept = used.count(resource.name) > 0;
 		plan.resources.push_back(
-			{ resource.name, resource.kind, kept, kept ? "" : reasonWithout(resource.name, passes, plan, input), resource.bytes(input) });
+			{ resource.name, resource.kind, kept, kept ? "" : reasonWithout(resource.name, passes, plan, input), resource.bytes(input), false });
 	}
 }
 
@@ -239,8 +239,11 @@ bool FramePlan::everyReadHasAnEarlierWriteAndABarrier(const PlanInput& input) co
 	return true;
 }
 
-Result<FramePlan> planFrame(std::span<const PassDesc* const> passes, std::span<const ResourceDesc> resources,
-							std::span<const std::string_view> wanted, const PlanInput& input)
+namespace
+{
+
+Result<FramePlan> planAll(std::span<const PassDesc* const> passes, std::span<const ResourceDesc> resources, std::span<const std::string_view> wanted,
+						  const PlanInput& input)
 {
 	FramePlan plan;
 	const std::vector<const PassDesc*> kept = keepPasses(passes, wanted, input, plan);
@@ -254,6 +257,43 @@ Result<FramePlan> planFrame(std::span<const PassDesc* const> passes, std::span<c
 	TRY(checkReads(plan, passes, resources, input));
 	planResources(passes, resources, input, plan);
 	plan.features = shaderFeatures(input);
+	return plan;
+}
+
+// Marks what the plan has beyond the one in which nothing is forced. Both list resources and features in the same order.
+void markForced(FramePlan& plan, const FramePlan& unforced)
+{
+	for (const DroppedPass& drop : unforced.dropped)
+		if (plan.has(drop.name))
+			plan.forced.push_back(drop);
+	for (size_t i = 0; i < plan.resources.size(); ++i)
+		if (plan.resources[i].kept && !unforced.resources[i].kept)
+		{
+			plan.resources[i].forced = true;
+			plan.resources[i].reason = unforced.resources[i].reason;
+		}
+	for (size_t i = 0; i < plan.features.size(); ++i)
+		if (plan.features[i].on && !unforced.features[i].on)
+		{
+			plan.features[i].forced = true;
+			plan.features[i].reason = unforced.features[i].reason;
+		}
+}
+
+}  // namespace
+
+Result<FramePlan> planFrame(std::span<const PassDesc* const> passes, std::span<const ResourceDesc> resources,
+							std::span<const std::string_view> wanted, const PlanInput& input)
+{
+	if (input.forced.empty())
+		return planAll(passes, resources, wanted, input);
+	std::vector<std::string_view> all(wanted.begin(), wanted.end());
+	all.insert(all.end(), input.forced.outputs.begin(), input.forced.outputs.end());
+	TRY_ASSIGN(FramePlan plan, planAll(passes, resources, all, input));
+	PlanInput unforced = input;
+	unforced.forced = {};
+	TRY_ASSIGN(const FramePlan base, planAll(passes, resources, wanted, unforced));
+	markForced(plan, base);
 	return plan;
 }
 

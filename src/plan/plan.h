@@ -34,27 +34,29 @@ struct PlannedResource
 {
 	std::string_view name, kind;
 	bool kept = false;
-	std::string reason;  // why it is left out
-	uint64_t bytes = 0;  // held when kept, saved when not
+	std::string reason;   // why it is left out, or would be were it not forced
+	uint64_t bytes = 0;   // held when kept, saved when not
+	bool forced = false;  // kept by --force alone
 };
 
 struct FramePlan
 {
 	std::vector<PlanStep> steps;
 	std::vector<DroppedPass> dropped;
+	std::vector<DroppedPass> forced;  // passes that --force alone keeps, and why they would be left out
 	std::vector<PlannedResource> resources;
 	std::vector<Feature> features;
 
 	bool has(std::string_view pass) const;
-	std::string reason(std::string_view pass) const;  // empty when kept or unknown
+	std::string reason(std::string_view pass) const;  // why it is left out; empty when kept or unknown
 	bool keeps(std::string_view resource) const;
 	// Every read of something that a step writes has an earlier write and a barrier since.
 	bool everyReadHasAnEarlierWriteAndABarrier(const PlanInput& input) const;
 };
 
 // Walks back from the wanted resources: a pass stays if its conditions hold and something kept reads what it writes.
-// `passes` in execution order. Errors: DeviceCannot when a wanted resource, or a list or image that a kept pass reads, has no
-// writer left, with the reasons.
+// `passes` in execution order. What `input` forces is kept, too, with what it needs, and marked. Errors: DeviceCannot when a wanted resource, or a
+// list or image that a kept pass reads, has no writer left, with the reasons.
 Result<FramePlan> planFrame(std::span<const PassDesc* const> passes, std::span<const ResourceDesc> resources,
 							std::span<const std::string_view> wanted, const PlanInput& input);
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tessera
 {
@@ -72,6 +73,7 @@ struct RenderOptions
 	uint32_t height_px = 1080;
 	std::map<std::string, uint32_t> capacities;  // by list name
 	uint64_t lists_bytes = 0;                    // memory of all lists together; 0: capacities of their own
+	std::vector<std::string> forced;             // passes, shader features and resources that are kept though nothing needs them
 };
 
 }  // namespace tessera

@@ -1,4 +1,5 @@
 #include "report/heat.h"
+#include "report/metric_fronts.h"
 #include "report/page_assets.h"
 #include "report/page_pictures.h"
 #include "report/report_charts.h"
@@ -49,6 +50,9 @@ std::string adviceHtml(const ReportData& data)
 			html += fmt::format("<p class=\"quiet\">Worth having at {}x{} (nothing tried is both faster and more exact): {}.</p>",
 								runs[0]->setting.width, runs[0]->setting.height, names);
 	}
+	for (const Cost cost : { Cost::Time, Cost::Triangles })
+		for (const MetricComparison& comparison : compareMetrics(data.runs, ErrorKind::SeenP99, cost))
+			html += fmt::format("<p class=\"quiet\">{}</p>", escaped(describe(comparison, ErrorKind::SeenP99)));
 	return html + "</div>";
 }
 
@@ -122,16 +126,28 @@ std::string numericsHtml(const ReportData& data)
 	return html + "</tbody></table></div>";
 }
 
+std::string savedText(const LeftOut& item)
+{
+	if (!item.saved_ms)
+		return "";
+	const std::string text = fmt::format("{:.4f} ± {:.4f}", *item.saved_ms, item.noise_ms);
+	return item.measured_with == item.name ? text : fmt::format("{} (with {})", text, escaped(item.measured_with));
+}
+
 std::string leftOutHtml(const ReportData& data)
 {
-	std::string html =
-		fmt::format("<h2>What the scene does not need</h2><p class=\"quiet\">At the first rate and picture size. Held: {}; not allocated: {}."
-					"</p><div class=\"scroll\"><table><thead><tr><th class=\"text\">what</th><th class=\"text\">name</th><th>saved</th>"
-					"<th class=\"text\">why</th></tr></thead><tbody>",
-					bytesText(data.bytes_kept), bytesText(data.bytes_saved));
+	std::string html = fmt::format(
+		"<h2>What the scene does not need</h2><p class=\"quiet\">At the first rate, metric and picture size. Held: {}; not allocated: {}. "
+		"Milliseconds: median GPU time of a frame with it forced on (<code>--force NAME</code>) less that without it, the two drawn in turn; after ± "
+		"two standard errors. What is kept under one condition is forced together.</p><div class=\"scroll\"><table><thead><tr><th "
+		"class=\"text\">what</th><th class=\"text\">name</th><th>bytes saved</th><th>ms saved</th><th class=\"text\">why it is left "
+		"out</th><th class=\"text\">why no time</th></tr></thead><tbody>",
+		bytesText(data.bytes_kept), bytesText(data.bytes_saved));
 	for (const LeftOut& item : data.left_out)
-		html += fmt::format("<tr><td class=\"text\">{}</td><td class=\"text\">{}</td><td>{}</td><td class=\"text wide\">{}</td></tr>",
-							escaped(item.kind), escaped(item.name), item.bytes > 0 ? bytesText(item.bytes) : "", escaped(item.reason));
+		html += fmt::format("<tr><td class=\"text\">{}</td><td class=\"text\">{}</td><td>{}</td><td>{}</td><td class=\"text wide\">{}</td>"
+							"<td class=\"text wide\">{}</td></tr>",
+							escaped(item.kind), escaped(item.name), item.bytes > 0 ? bytesText(item.bytes) : "", savedText(item),
+							escaped(item.reason), escaped(item.not_measured));
 	return html + "</tbody></table></div>";
 }
 

@@ -14,6 +14,11 @@ struct LeftOut
 	std::string kind;  // "pass", "shader feature", "buffer", ...
 	std::string name, reason;
 	uint64_t bytes = 0;  // not allocated; 0 for passes and features
+	// GPU time of a frame with it forced on, less that without it, each a median; `noise_ms`: two standard errors of that.
+	std::optional<double> saved_ms;
+	double noise_ms = 0;
+	std::string not_measured;   // why there is no time
+	std::string measured_with;  // the same measurement stands for all that is kept under one condition: by what that was forced
 };
 
 struct ReportData

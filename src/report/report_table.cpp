@@ -1,5 +1,6 @@
 #include "report/report_table.h"
 
+#include "report/metric_fronts.h"
 #include "report/report_data.h"
 
 namespace tessera::report
@@ -226,9 +227,30 @@ nlohmann::json reportJson(const ReportData& data)
 		for (const auto& runs : bySize(data.runs))
 			for (const size_t i : paretoFront(runs, kind))
 				json["front"][std::string(keyOf(kind))].push_back(runs[i]->setting.label());
+	json["metrics"] = nlohmann::json::array();
+	for (const ErrorKind kind : { ErrorKind::SeenP99, ErrorKind::SeenMax })
+		for (const Cost cost : { Cost::Time, Cost::Triangles })
+			for (const MetricComparison& c : compareMetrics(data.runs, kind, cost))
+				json["metrics"].push_back({ { "metric", c.metric },
+											{ "baseline", c.baseline },
+											{ "raster", c.raster },
+											{ "size", { c.width, c.height } },
+											{ "error", keyOf(kind) },
+											{ "cost", cost == Cost::Time ? "gpu_ms" : "micro_triangles" },
+											{ "ratio", c.ratio },
+											{ "worst_ratio", c.worst_ratio },
+											{ "least_px", c.least_px },
+											{ "most_px", c.most_px } });
 	json["left_out"] = nlohmann::json::array();
 	for (const LeftOut& item : data.left_out)
-		json["left_out"].push_back({ { "kind", item.kind }, { "name", item.name }, { "reason", item.reason }, { "bytes", item.bytes } });
+		json["left_out"].push_back({ { "kind", item.kind },
+									 { "name", item.name },
+									 { "reason", item.reason },
+									 { "bytes", item.bytes },
+									 { "saved_ms", item.saved_ms ? nlohmann::json(*item.saved_ms) : nlohmann::json() },
+									 { "noise_ms", item.noise_ms },
+									 { "not_measured", item.not_measured },
+									 { "measured_with", item.measured_with } });
 	json["advice"] = nlohmann::json::array();
 	for (const Advice& advice : recommend(data.runs, data.limits))
 		json["advice"].push_back(advice.text);

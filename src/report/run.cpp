@@ -10,7 +10,6 @@ using nlohmann::json;
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Figures, max, rms, p99)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TimeFigures, median, min, max, lower_quartile, upper_quartile)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Setting, rate, raster, metric, width, height)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PassFigures, name, gpu_ms)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunCounts, micro_triangles, part_triangles, split_triangles, full_clusters, visible_clusters, covered_pixels)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunBytes, lists, geometry, textures, images)
@@ -37,6 +36,22 @@ json optionalJson(const std::optional<T>& value)
 }
 
 }  // namespace
+
+static void to_json(json& to, const Setting& setting)
+{
+	to = { { "rate", setting.rate },   { "raster", setting.raster }, { "metric", setting.metric },
+		   { "width", setting.width }, { "height", setting.height }, { "forced", setting.forced } };
+}
+
+static void from_json(const json& from, Setting& setting)
+{
+	from.at("rate").get_to(setting.rate);
+	from.at("raster").get_to(setting.raster);
+	from.at("metric").get_to(setting.metric);
+	from.at("width").get_to(setting.width);
+	from.at("height").get_to(setting.height);
+	setting.forced = from.value("forced", "");
+}
 
 static void to_json(json& to, const ImageError& error)
 {
@@ -72,7 +87,7 @@ TimeFigures timeFigures(std::vector<double> gpu_ms)
 
 std::string Setting::label() const
 {
-	return fmt::format("rate {}, {}, {}, {}x{}", rate, metric, raster, width, height);
+	return fmt::format("rate {}, {}, {}, {}x{}{}{}", rate, metric, raster, width, height, forced.empty() ? "" : ", forced ", forced);
 }
 
 namespace

@@ -29,6 +29,7 @@ struct Setting
 	std::string raster;
 	std::string metric = "edge";
 	uint32_t width = 0, height = 0;
+	std::string forced;  // what was kept though nothing needed it (--force), joined by '+'
 
 	bool operator==(const Setting&) const = default;
 	std::string label() const;  // "rate 4, soft, 1920x1080"

@@ -34,7 +34,7 @@ std::vector<NamedCheck> allChecks()
 // Twice the room in the lists that decide whether a frame fits.
 RenderOptions withOtherCapacities(RenderOptions options, const BuiltScene& scene, const Device& device)
 {
-	const PlanInput input = { options, scene.traits, sizesOf(scene), traitsOf(device), {} };
+	const PlanInput input = { options, scene.traits, sizesOf(scene), traitsOf(device), {}, {} };
 	const auto capacities = listCapacities(input);
 	for (const std::string_view name : { "part_triangles", "split_triangles", "full_clusters", "visible_clusters" })
 	{

@@ -27,7 +27,7 @@ protected:
 	}
 };
 
-constexpr const char* kArguments = "report builtin:quad --size 96x64 --frames 3 --warmup 1 -o ";
+constexpr const char* kArguments = "report builtin:quad --size 96x64 --frames 3 --warmup 1 --measure-left-out off -o ";
 
 std::string textOf(const std::string& file)
 {
@@ -92,11 +92,45 @@ TEST_F(reportCommand, goesOnWhereItWasInterrupted)
 	EXPECT_EQ(textOf("resumed/runs.jsonl"), resumed);
 }
 
+TEST_F(reportCommand, whatTheSceneDoesNotNeedIsMeasuredByForcingItOn)
+{
+	const std::string arguments = "report builtin:quad --size 96x64 --frames 3 --warmup 1 --raster soft --rates 8 --quiet -o left_out";
+	const ProgramRun run = runTessera(arguments);
+	ASSERT_EQ(run.exit_code, 0) << run.errors;
+	const json report = json::parse(textOf("left_out/report.json"), nullptr, false);
+	ASSERT_TRUE(report.is_object());
+	EXPECT_EQ(report["runs"].size(), 1u);
+	size_t measured = 0;
+	for (const json& item : report["left_out"])
+	{
+		// A time, or why there is none.
+		EXPECT_NE(item["saved_ms"].is_null(), item["not_measured"] == "") << item;
+		measured += item["saved_ms"].is_null() ? 0 : 1;
+		if (item["name"] == "seam_corner_indices" || item["name"] == "HAS_SEAMS")
+		{
+			EXPECT_EQ(item["measured_with"], "HAS_SEAMS");
+		}
+		if (item["name"] == "draw_indexed")
+		{
+			EXPECT_TRUE(item["saved_ms"].is_null());
+		}
+	}
+	EXPECT_GT(measured, 8u);
+	// All of it is in the log, and not measured again.
+	const std::string log = textOf("left_out/runs.jsonl");
+	EXPECT_NE(log.find("\"forced\":\"HAS_SEAMS\""), std::string::npos);
+	ASSERT_EQ(runTessera(arguments + " --resume").exit_code, 0);
+	EXPECT_EQ(textOf("left_out/runs.jsonl"), log);
+	const json again = json::parse(textOf("left_out/report.json"), nullptr, false);
+	EXPECT_EQ(again["left_out"], report["left_out"]);
+}
+
 TEST_F(reportCommand, wrongUsageIsRefusedBeforeAnythingIsWritten)
 {
 	EXPECT_EQ(runTessera(std::string(kArguments) + "none --rates 4,fast --quiet").exit_code, 2);
 	EXPECT_EQ(runTessera(std::string(kArguments) + "none --view wireframe --quiet").exit_code, 2);
 	EXPECT_EQ(runTessera("report builtin:quad --rasters auto,soft -o none --quiet").exit_code, 2);
+	EXPECT_EQ(runTessera("report builtin:quad --force batches,nothing_of_that_name -o none --quiet").exit_code, 2);
 	EXPECT_FALSE(std::filesystem::exists(scratchFolder() / "none"));
 }
 

@@ -18,7 +18,7 @@ static void record(PassContext& pass)
 	args.heads = pass.address("heads");
 	args.counts = pass.address("counts");
 	args.indexed_draw = pass.address("indexed_draw");
-	args.split_levels = kSplits.holds(pass.input()) ? pass.input().view.split_levels : 0;
+	args.split_levels = splitLevels(pass.input());
 	pass.dispatch(args, 1);
 }
 

@@ -58,7 +58,7 @@ static void record(PassContext& pass)
 	args.step_count = pass.rateStepCount();
 	args.lists = pass.repeat();
 	args.deciding_lists = pass.decidingLists();
-	args.split_levels = kSplits.holds(pass.input()) ? pass.input().view.split_levels : 0;
+	args.split_levels = splitLevels(pass.input());
 	// Few visible clusters can keep many workgroups busy: each at its own candidate. No more than that, since they mostly just end.
 	pass.dispatchLoop(args, std::min<uint64_t>(kMostWorkgroups, uint64_t(pass.capacity("visible_clusters")) * args.step_count));
 }

@@ -29,11 +29,6 @@ static constexpr Use kUses[] = {
 // SPLITS_PER_GROUP of the shader.
 constexpr uint32_t kSplitsPerGroup = 24;
 
-static uint32_t levels(const PlanInput& input)
-{
-	return input.view.split_levels;
-}
-
 static void record(PassContext& pass)
 {
 	TriangleSplitArgs args = {};
@@ -51,13 +46,13 @@ static void record(PassContext& pass)
 	args.rule = pass.factorRule();
 	args.cull_frustum = culling(pass.input()).frustum ? 1 : 0;
 	args.level = pass.repeat();
-	args.last_level = pass.repeat() + 1 == levels(pass.input()) ? 1 : 0;
+	args.last_level = pass.repeat() + 1 == splitLevels(pass.input()) ? 1 : 0;
 	pass.dispatchLoop(args, pass.capacity("split_triangles"), kSplitsPerGroup);
 }
 
 static constexpr const Condition* kNeeded[] = { &kSplits };
 static constexpr std::string_view kShaders[] = { "tessellation/triangle_split.comp" };
 
-const PassDesc kTriangleSplit = { "triangle_split", kUses, kNeeded, kShaders, levels, record };
+const PassDesc kTriangleSplit = { "triangle_split", kUses, kNeeded, kShaders, splitLevels, record };
 
 }  // namespace tessera
