@@ -32,6 +32,8 @@ void main()
 		args.counts.at[0].second_batches = 0u;
 		args.counts.at[0].hidden_parts = 0u;
 		args.counts.at[0].revealed_parts = 0u;
+		args.counts.at[0].hidden_clusters = 0u;
+		args.counts.at[0].revealed_clusters = 0u;
 		args.counts.at[0].dump_vertices = 0u;
 		args.counts.at[0].dump_triangles = 0u;
 		args.counts.at[0].left_items = 0u;

@@ -10,6 +10,8 @@ void listFullCluster(ListHeadRef heads, FrameCountsRef counts, FullClusterRef fu
 {
 	FullCluster full = FullCluster(visible_cluster, 0u, phase);
 	atomicAdd(counts.at[0].full_cluster_triangles, clusterTriangles(cluster));
+	if (HAS_OCCLUSION && phase == PHASE_HIDDEN)
+		atomicAdd(counts.at[0].hidden_clusters, 1u);
 	if (KEEPS_VERTICES)
 		full.first_vertex = reserveEntries(heads, LIST_MICRO_VERTICES, clusterVertices(cluster));
 	if (EXPANDS_TRIANGLES)

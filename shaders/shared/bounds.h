@@ -17,12 +17,18 @@ struct DisplacedBounds
 	vec3 direction_high;
 	float reach_low;  // interval of (height * factor + offset) over all mips that may be read; both 0: not displaced
 	float reach_high;
-	vec3 cone_axis;     // normal cone of the base triangles, unit
-	float cone_cutoff;  // back-facing when dot(axis, direction from eye) >= cutoff * length; above 1: never (see scene/)
-	float bulge;        // farthest that PN triangles lie from their flat ones; 0 without them
-	float unused;       // to a multiple of 16 bytes, so that devices read four words at once
+	vec3 cone_axis;      // normal cone of the base triangles, unit
+	float cone_cutoff;   // back-facing when dot(axis, direction from eye) >= cutoff * length; above 1: never (see scene/)
+	float bulge;         // farthest that PN triangles lie from their flat ones; 0 without them
+	float longest_edge;  // of the base triangles
 };
-SHARED_LAYOUT(DisplacedBounds, 80, unused, 76)
+SHARED_LAYOUT(DisplacedBounds, 80, longest_edge, 76)
+
+// Half of how far a box reaches along an axis; `row`: that axis in the box's own ones.
+SHARED_FN float extentAlong(vec3 row, vec3 half_size)
+{
+	return max(row.x, -row.x) * half_size.x + max(row.y, -row.y) * half_size.y + max(row.z, -row.z) * half_size.z;
+}
 
 // What displacement can do within a base triangle, whoever owns its edges and corners, while no mip coarser than
 // REACH_FINE_MIP or REACH_COARSE_MIP is read. Intervals as DisplacedBounds.reach_low and reach_high.
@@ -138,12 +144,7 @@ SHARED_FN PlacedReach placedReach(DisplacedBounds bounds, Placement placement, V
 	vec3 size = vec3(bounds.high.x - bounds.low.x, bounds.high.y - bounds.low.y, bounds.high.z - bounds.low.z);
 	Placement turn = placement;
 	turn.translation = vec3(0.0f, 0.0f, 0.0f);
-	vec3 extent = vec3(max(placement.row0.x, -placement.row0.x) * size.x + max(placement.row0.y, -placement.row0.y) * size.y +
-						   max(placement.row0.z, -placement.row0.z) * size.z,
-					   max(placement.row1.x, -placement.row1.x) * size.x + max(placement.row1.y, -placement.row1.y) * size.y +
-						   max(placement.row1.z, -placement.row1.z) * size.z,
-					   max(placement.row2.x, -placement.row2.x) * size.x + max(placement.row2.y, -placement.row2.y) * size.y +
-						   max(placement.row2.z, -placement.row2.z) * size.z);
+	vec3 extent = vec3(extentAlong(placement.row0, size), extentAlong(placement.row1, size), extentAlong(placement.row2, size));
 	PlacedReach reach;
 	reach.centre = placed(turn, middle);
 	reach.axis0 = vec3(placement.row0.x * half_size.x, placement.row1.x * half_size.x, placement.row2.x * half_size.x);
@@ -180,6 +181,37 @@ SHARED_FN bool pieceMayBeVisible(vec3 p, vec3 q, vec3 r, PlacedReach reach, View
 	PieceBox box = pieceBox(p, q, r, reach);
 	return placedBoxMayBeVisible(box.centre, vec3(box.half_size.x, 0.0f, 0.0f), vec3(0.0f, box.half_size.y, 0.0f), vec3(0.0f, 0.0f, box.half_size.z),
 								 view);
+}
+
+// Not below the square of the most that a placement stretches a length: the norm of its matrix times the transposed one, which is exact where
+// the three axes are at right angles and scaled alike.
+SHARED_FN float stretchSquared(Placement placement)
+{
+	vec3 x = placement.row0, y = placement.row1, z = placement.row2;
+	float xy = x.x * y.x + x.y * y.y + x.z * y.z, xz = x.x * z.x + x.y * z.y + x.z * z.z, yz = y.x * z.x + y.y * z.y + y.z * z.z;
+	float xx = x.x * x.x + x.y * x.y + x.z * x.z, yy = y.x * y.x + y.y * y.y + y.z * y.z, zz = z.x * z.x + z.y * z.y + z.z * z.z;
+	xy = max(xy, -xy);
+	xz = max(xz, -xz);
+	yz = max(yz, -yz);
+	return max(xx + xy + xz, max(yy + xy + yz, zz + xz + yz));
+}
+
+// True only when no edge of the cluster gets two segments by the metric `edge`: the longest edge that it can have here, seen from the point of
+// its box that is nearest to the eye, is too short (DESIGN.md, section 5). Most clusters of dense and of far meshes are decided by this.
+SHARED_FN bool allFactorsAreOne(DisplacedBounds bounds, Placement placement, View view)
+{
+	vec3 half_size = vec3((bounds.high.x - bounds.low.x) * 0.5f, (bounds.high.y - bounds.low.y) * 0.5f, (bounds.high.z - bounds.low.z) * 0.5f);
+	vec3 centre = placed(placement, vec3(bounds.low.x + half_size.x, bounds.low.y + half_size.y, bounds.low.z + half_size.z));
+	vec3 away = vec3(max(centre.x, -centre.x), max(centre.y, -centre.y), max(centre.z, -centre.z));
+	vec3 reach = vec3(extentAlong(placement.row0, half_size), extentAlong(placement.row1, half_size), extentAlong(placement.row2, half_size));
+	// What rounding may take.
+	float room = (away.x + away.y + away.z + reach.x + reach.y + reach.z) * 1e-5f;
+	float x = max(away.x - reach.x - room, 0.0f), y = max(away.y - reach.y - room, 0.0f), z = max(away.z - reach.z - room, 0.0f);
+	float nearest_squared = max((x * x + y * y + z * z) * view.distance_weight, view.distance_floor_squared);
+	float unit_squared = nearest_squared * view.rate_over_focal_squared;
+	float longest_squared = bounds.longest_edge * bounds.longest_edge * stretchSquared(placement);
+	// An edge gets two from 1.5 units on.
+	return longest_squared * 1.001f < 2.25f * unit_squared;
 }
 
 SHARED_END

@@ -49,12 +49,14 @@ struct FrameCounts
 	uint second_batches;      // first batch of the second phase
 	uint hidden_parts;        // not rasterised in the first phase
 	uint revealed_parts;      // but in the second
-	uint dump_vertices;       // that dump_micro wants to write
+	uint hidden_clusters;     // so for full clusters
+	uint revealed_clusters;
+	uint dump_vertices;  // that dump_micro wants to write
 	uint dump_triangles;
 	uint left_items;                     // that raster_small left to raster_micro
 	uint split_count[MAX_SPLIT_LEVELS];  // split triangles appended per level; level 0 by cluster_classify
 };
-SHARED_LAYOUT(FrameCounts, 192, split_count, 64)
+SHARED_LAYOUT(FrameCounts, 200, split_count, 72)
 
 // An entry of cluster_groups: up to CLUSTER_GROUP_SIZE clusters of one instance.
 #define CLUSTER_GROUP_SIZE 64u

@@ -265,7 +265,10 @@ void retestClusters()
 		ClusterRef ref = args.visible_clusters.at[full.visible_cluster];
 		DisplacedBounds bounds = args.cluster_bounds.at[ref.cluster];
 		if (!clusterIsHidden(bounds, args.instances.at[ref.instance], frame_view, frame_history.pyramid))
+		{
 			args.full_clusters.at[i].phase = PHASE_SECOND;
+			atomicAdd(args.counts.at[0].revealed_clusters, 1u);
+		}
 	}
 }
 

@@ -63,6 +63,12 @@ void decideTriangles(ClusterRecord cluster, Placement placement, PlacedReach rea
 	}
 }
 
+// Bounds are there when something is culled.
+bool isFullByBounds(ClusterRef ref, Placement placement, View view)
+{
+	return HAS_CULLING && !HAS_DETAIL && !HAS_DISPLACED_EDGES && allFactorsAreOne(args.cluster_bounds.at[ref.cluster], placement, view);
+}
+
 uint fullPhase(uint index)
 {
 	if (!HAS_OCCLUSION)
@@ -124,12 +130,16 @@ void main()
 			tessellated = 0u;
 		}
 		Placement placement = placementOf(args.instances.at[ref.instance], view);
-		PlacedReach reach;
-		if (HAS_CULLING)
-			reach = placedReach(args.cluster_bounds.at[ref.cluster], placement, view);
-		placeVertices(cluster, placement);
-		barrier();
-		decideTriangles(cluster, placement, reach, view);
+		// One cluster, one answer: all lanes come by the same barriers.
+		if (!isFullByBounds(ref, placement, view))
+		{
+			PlacedReach reach;
+			if (HAS_CULLING)
+				reach = placedReach(args.cluster_bounds.at[ref.cluster], placement, view);
+			placeVertices(cluster, placement);
+			barrier();
+			decideTriangles(cluster, placement, reach, view);
+		}
 		barrier();
 		if (gl_LocalInvocationIndex == 0u)
 			reserve(cluster, index);

@@ -230,6 +230,7 @@ void grant(uint step)
 	args.counts.at[0].listed_again = 1u;
 	args.counts.at[0].levels_missing = args.counts.at[0].split_count[args.split_levels];
 	args.counts.at[0].full_cluster_triangles = 0u;
+	args.counts.at[0].hidden_clusters = 0u;
 	for (uint level = 0u; level < MAX_SPLIT_LEVELS; ++level)
 		args.counts.at[0].split_count[level] = 0u;
 	for (uint list = LIST_FULL_CLUSTERS; list < LIST_COUNT; ++list)

@@ -46,6 +46,8 @@ ordered_json frameJson(const RunFacts& facts)
 		{ "micro_triangles", counts.micro_triangles },
 		{ "hidden_parts", counts.hidden_parts },
 		{ "revealed_parts", counts.revealed_parts },
+		{ "hidden_clusters", counts.hidden_clusters },
+		{ "revealed_clusters", counts.revealed_clusters },
 		{ "covered_pixels", counts.covered_pixels },
 	};
 }

@@ -28,6 +28,8 @@ void addCounts(const FrameResources& resources, FrameCountsRead& sum)
 	sum.micro_triangles += (uint64_t(counts.micro_high) << 32 | counts.micro_low) + counts.full_cluster_triangles;
 	sum.hidden_parts += counts.hidden_parts;
 	sum.revealed_parts += counts.revealed_parts;
+	sum.hidden_clusters += counts.hidden_clusters;
+	sum.revealed_clusters += counts.revealed_clusters;
 	sum.covered_pixels = counts.covered_pixels;  // of the whole depth image, so the last round's count is the frame's
 }
 
@@ -78,8 +80,10 @@ OcclusionOutcome occlusionOutcome(const FrameResult& result)
 		return found == result.passes.end() ? 0 : found->gpu_ms;
 	};
 	OcclusionOutcome outcome;
-	outcome.parts = result.counts.part_triangles;
-	outcome.left_out = result.counts.hidden_parts - std::min(result.counts.hidden_parts, result.counts.revealed_parts);
+	const FrameCountsRead& counts = result.counts;
+	outcome.items = counts.part_triangles + counts.full_clusters;
+	const uint64_t hidden = counts.hidden_parts + counts.hidden_clusters;
+	outcome.left_out = hidden - std::min(hidden, counts.revealed_parts + counts.revealed_clusters);
 	outcome.raster_ms = took("raster_small") + took("raster_micro");
 	outcome.looking_ms = took("depth_pyramid") + took("retest_parts") + took("raster_revealed");
 	return outcome;

@@ -8,15 +8,12 @@ namespace tessera
 namespace
 {
 
-// Rasterising what was left out would have taken as long per part as the rest. Without timers an eighth has to be hidden.
+// Rasterising what was left out would have taken as long per item as the rest. Without timers an eighth has to be hidden.
 bool pays(const OcclusionOutcome& outcome)
 {
-	// Full clusters are not counted as parts: nothing is known of what they save.
-	if (outcome.parts == 0)
-		return true;
 	if (outcome.looking_ms <= 0)
-		return outcome.left_out * 8 >= outcome.parts;
-	const uint64_t drawn = std::max<uint64_t>(outcome.parts - std::min(outcome.left_out, outcome.parts), 1);
+		return outcome.left_out * 8 >= outcome.items;
+	const uint64_t drawn = std::max<uint64_t>(outcome.items - std::min(outcome.left_out, outcome.items), 1);
 	return outcome.raster_ms * double(outcome.left_out) / double(drawn) > outcome.looking_ms;
 }
 

@@ -5,12 +5,12 @@
 namespace tessera
 {
 
-// What a frame that looked for hidden parts found, and what it took.
+// What a frame that looked for what is hidden found, and what it took.
 struct OcclusionOutcome
 {
-	uint64_t parts = 0;     // that the frame had
+	uint64_t items = 0;     // parts and full clusters that the frame had: about the same work each
 	uint64_t left_out = 0;  // hidden in both phases
-	double raster_ms = 0;   // of the parts that were not
+	double raster_ms = 0;   // of the items that were not
 	double looking_ms = 0;  // of the passes that look; 0: the device has no timers
 };
 

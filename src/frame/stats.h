@@ -44,6 +44,8 @@ struct FrameCountsRead
 	uint64_t micro_triangles = 0;  // of parts and full clusters
 	uint64_t hidden_parts = 0;     // left out by the first phase of occlusion culling
 	uint64_t revealed_parts = 0;   // drawn in the second
+	uint64_t hidden_clusters = 0;  // full ones, likewise
+	uint64_t revealed_clusters = 0;
 	uint64_t covered_pixels = 0;
 };
 

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include <cstring>
 #include <set>
 
@@ -333,6 +335,52 @@ TEST(hostScene, arraysThatTheSceneDoesNotNeedChangeNoBit)
 	for (const ReferencePiece& part : result.parts)
 		for (const reference::MicroVertex& vertex : evaluatePart(plain.host, view, part).vertices)
 			ASSERT_EQ(std::memcmp(&vertex.base, &vertex.displaced, sizeof(vec3)), 0);
+}
+
+// What bounds alone decide is what the triangles would say; and of clusters that are full they decide nearly all.
+TEST(hostScene, clustersThatBoundsCallFullAreFull)
+{
+	std::mt19937 random(5);
+	const auto signedUnit = [&] {
+		return std::uniform_real_distribution<double>(-1, 1)(random);
+	};
+	std::vector<std::pair<std::string, std::unique_ptr<ReferenceScene>>> scenes;
+	for (const char* name : { "planet", "bricks", "instances:30" })
+		scenes.emplace_back(name, builtinScene(name));
+	ImportedScene skewed = sphereScene(12, 18, TexelFormat::U8, Wrap::Repeat);
+	ASSERT_FALSE(skewed.instances.empty());
+	skewed.instances[0].world = dmat4(dvec4(3, 0.2, 0, 0), dvec4(0.5, 0.1, -0.3, 0), dvec4(0, 1, -2, 0), dvec4(5, 0, 1, 1));
+	scenes.emplace_back("skewed", std::make_unique<ReferenceScene>(skewed));
+	uint64_t full = 0, known = 0;
+	for (const auto& [name, scene] : scenes)
+		for (int i = 0; i < 12; ++i)
+		{
+			const dvec3 middle = (scene->built.world_low + scene->built.world_high) / 2.0;
+			const double reach = glm::length(scene->built.world_high - middle);
+			const dvec3 way = dvec3(signedUnit(), signedUnit(), signedUnit());
+			Camera camera = cameraAt(middle + way * reach * (i % 3 == 0 ? 0.5 : 3.0), middle);
+			const View view = viewOf(*scene, camera, request(150, 4.0 + 4 * (i % 4)));
+			const reference::Classified classified = classifyAll(*scene, view);
+			const auto isFull = [&](ClusterRef ref) {
+				return std::any_of(classified.full_clusters.begin(), classified.full_clusters.end(),
+								   [&](ClusterRef other) { return other.instance == ref.instance && other.cluster == ref.cluster; });
+			};
+			for (uint32_t instance = 0; instance < scene->built.instances.size(); ++instance)
+			{
+				const MeshRecord mesh = scene->built.meshes[scene->built.instances[instance].mesh];
+				for (uint32_t cluster = mesh.first_cluster; cluster < mesh.first_cluster + mesh.cluster_count; ++cluster)
+				{
+					const ClusterRef ref = { instance, cluster };
+					const bool by_bounds =
+						allFactorsAreOne(scene->built.cluster_bounds[cluster], placementOf(scene->host.instances()[instance], view), view);
+					EXPECT_TRUE(!by_bounds || isFull(ref)) << name << " instance " << instance << " cluster " << cluster;
+					full += isFull(ref);
+					known += by_bounds;
+				}
+			}
+		}
+	EXPECT_GT(full, 1000u);
+	EXPECT_GT(known, full * 2 / 3);
 }
 
 TEST(hostScene, frustumKeepsEveryClusterThatTouchesThePicture)

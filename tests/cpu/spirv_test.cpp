@@ -95,6 +95,8 @@ struct HostLayout
 #define FIELDS_15(T, a, ...) FIELD(T, a), FIELDS_14(T, __VA_ARGS__)
 #define FIELDS_16(T, a, ...) FIELD(T, a), FIELDS_15(T, __VA_ARGS__)
 #define FIELDS_17(T, a, ...) FIELD(T, a), FIELDS_16(T, __VA_ARGS__)
+#define FIELDS_18(T, a, ...) FIELD(T, a), FIELDS_17(T, __VA_ARGS__)
+#define FIELDS_19(T, a, ...) FIELD(T, a), FIELDS_18(T, __VA_ARGS__)
 #define LAYOUT(count, T, ...)              \
 	HostLayout                             \
 	{                                      \
@@ -132,8 +134,9 @@ std::vector<HostLayout> hostLayouts()
 		LAYOUT(14, Surface, positions, directions, uvs, densities, triangles, first_seam_edges, seam_edges, seam_corner_indices, seam_corners,
 			   material_height_maps, height_maps, triangle_details, edge_roughness, pn_directions),
 		LAYOUT(8, ListHead, group_width, group_rows, group_depth, wanted, capacity, peak, peak_used, unused),
-		LAYOUT(17, FrameCounts, overflow, covered_pixels, micro_low, micro_high, full_cluster_triangles, expanded_triangles, rate_step, listed_again,
-			   levels_missing, search_finished, second_batches, hidden_parts, revealed_parts, dump_vertices, dump_triangles, left_items, split_count),
+		LAYOUT(19, FrameCounts, overflow, covered_pixels, micro_low, micro_high, full_cluster_triangles, expanded_triangles, rate_step, listed_again,
+			   levels_missing, search_finished, second_batches, hidden_parts, revealed_parts, hidden_clusters, revealed_clusters, dump_vertices,
+			   dump_triangles, left_items, split_count),
 		LAYOUT(11, RateStep, rate_over_focal_squared, sample_over_focal_squared, rule, split_triangles, part_triangles, part_vertices,
 			   part_micro_triangles, full_clusters, full_vertices, full_micro_triangles, abandoned),
 		LAYOUT(3, ClusterGroup, instance, first_cluster, cluster_count),
@@ -142,7 +145,7 @@ std::vector<HostLayout> hostLayouts()
 		LAYOUT(4, PatternRange, first_triangle, first_vertex, counts, unused),
 		LAYOUT(3, TableView, patterns, vertices, triangles),
 		LAYOUT(1, DomainTriangle, words),
-		LAYOUT(10, DisplacedBounds, low, high, direction_low, direction_high, reach_low, reach_high, cone_axis, cone_cutoff, bulge, unused),
+		LAYOUT(10, DisplacedBounds, low, high, direction_low, direction_high, reach_low, reach_high, cone_axis, cone_cutoff, bulge, longest_edge),
 		LAYOUT(7, RasterInputs, instances, clusters, visible_clusters, part_triangles, part_places, material_flags, table),
 		LAYOUT(5, MaterialRecord, base_color, emissive, metallic, roughness, color_texture),
 		LAYOUT(4, ShadingData, normals, color_uvs, colors, materials),

@@ -218,6 +218,21 @@ void boundPatches(const BuiltScene& scene, const ClusterRecord& cluster, Displac
 	bounds.bulge = farthest > 0 ? std::nextafter(float(farthest), kInfinity) : 0;
 }
 
+float longestEdge(const BuiltScene& scene, const ClusterRecord& cluster)
+{
+	double longest_squared = 0;
+	for (uint32_t t = 0; t < clusterTriangles(cluster); ++t)
+	{
+		const ClusterTriangle triangle = clusterTriangle(scene, cluster, t);
+		for (int corner = 0; corner < 3; ++corner)
+		{
+			const dvec3 edge = dvec3(scene.positions[triangle.vertices[corner]]) - dvec3(scene.positions[triangle.vertices[(corner + 1) % 3]]);
+			longest_squared = std::max(longest_squared, glm::dot(edge, edge));
+		}
+	}
+	return longest_squared > 0 ? std::nextafter(float(std::sqrt(longest_squared)), kInfinity) : 0.0f;
+}
+
 DisplacedBounds clusterBounds(const BuiltScene& scene, const std::vector<HeightRanges>& maps, const ClusterRecord& cluster,
 							  std::span<TriangleReach> triangle_reaches)
 {
@@ -227,6 +242,7 @@ DisplacedBounds clusterBounds(const BuiltScene& scene, const std::vector<HeightR
 		bounds.low = glm::min(bounds.low, scene.positions[v]);
 		bounds.high = glm::max(bounds.high, scene.positions[v]);
 	}
+	bounds.longest_edge = longestEdge(scene, cluster);
 	if (scene.traits.has_pn)
 		boundPatches(scene, cluster, bounds);
 	if (!scene.uvs.empty())
@@ -249,6 +265,7 @@ DisplacedBounds meshBounds(const BuiltScene& scene, const MeshRecord& mesh)
 		bounds.low = glm::min(bounds.low, cluster.low);
 		bounds.high = glm::max(bounds.high, cluster.high);
 		bounds.bulge = std::max(bounds.bulge, cluster.bulge);
+		bounds.longest_edge = std::max(bounds.longest_edge, cluster.longest_edge);
 		bounds.reach_low = i == mesh.first_cluster ? cluster.reach_low : std::min(bounds.reach_low, cluster.reach_low);
 		bounds.reach_high = i == mesh.first_cluster ? cluster.reach_high : std::max(bounds.reach_high, cluster.reach_high);
 		if (cluster.reach_low == 0 && cluster.reach_high == 0)
@@ -261,22 +278,6 @@ DisplacedBounds meshBounds(const BuiltScene& scene, const MeshRecord& mesh)
 	if (mesh.cluster_count == 0)
 		bounds.low = bounds.high = vec3(0);
 	return bounds;
-}
-
-float longestEdge(const BuiltScene& scene, const MeshRecord& mesh)
-{
-	double longest_squared = 0;
-	for (uint32_t i = mesh.first_cluster; i < mesh.first_cluster + mesh.cluster_count; ++i)
-		for (uint32_t t = 0; t < clusterTriangles(scene.clusters[i]); ++t)
-		{
-			const ClusterTriangle triangle = clusterTriangle(scene, scene.clusters[i], t);
-			for (int corner = 0; corner < 3; ++corner)
-			{
-				const dvec3 edge = dvec3(scene.positions[triangle.vertices[corner]]) - dvec3(scene.positions[triangle.vertices[(corner + 1) % 3]]);
-				longest_squared = std::max(longest_squared, glm::dot(edge, edge));
-			}
-		}
-	return longest_squared > 0 ? std::nextafter(float(std::sqrt(longest_squared)), kInfinity) : 0.0f;
 }
 
 void boundWorld(BuiltScene& scene)
@@ -327,7 +328,7 @@ void buildBounds(BuiltScene& scene)
 	for (const MeshRecord& mesh : scene.meshes)
 	{
 		scene.mesh_bounds.push_back(meshBounds(scene, mesh));
-		scene.mesh_longest_edge.push_back(longestEdge(scene, mesh));
+		scene.mesh_longest_edge.push_back(scene.mesh_bounds.back().longest_edge);
 	}
 	boundWorld(scene);
 }

@@ -45,6 +45,7 @@ void draw(Ui& ui, Session& session)
 	valueRow("visible clusters", fmt::format("{}", result.counts.visible_clusters));
 	valueRow("hidden parts", fmt::format("{}", result.counts.hidden_parts));
 	valueRow("revealed parts", fmt::format("{}", result.counts.revealed_parts));
+	valueRow("hidden full clusters", fmt::format("{}", result.counts.hidden_clusters));
 	valueRow("covered pixels", fmt::format("{}", result.counts.covered_pixels));
 	valueRow("attempts", fmt::format("{}", result.attempts));
 	valueRow("rounds", fmt::format("{}", result.rounds));
