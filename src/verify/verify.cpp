@@ -285,14 +285,10 @@ private:
 		frame_ = fmt::format("camera {}, rate {}, {}", camera.name, rate, rasterName(request_.paths.front()));
 		TRY_ASSIGN(const Capture there, other.capture(camera.camera, rate));
 		CheckResult result = compareMicro(first.micro, there.micro, "the first device's");
-		CheckResult seen = comparePictures(first.visible, there.visible, "the other device", kDeviceDepthRoom);
-		// Only the compute rasteriser decides in integers which pixels a triangle covers; the drawing paths snap as their device does.
-		if (request_.paths.front() != Raster::Soft)
-		{
-			seen.sums["pixels that see something else"] = seen.violations;
-			seen.violations = 0;
-		}
-		result.merge(seen);
+		// Only the compute rasteriser decides in integers which pixels a triangle covers; the others round as their device does.
+		const bool decides_exactly = request_.paths.front() == Raster::Soft;
+		result.merge(decides_exactly ? comparePictures(first.visible, there.visible, "the other device", kDeviceDepthRoom)
+									 : checkPaths(Screen(truth_, first.view), first.micro, first.visible, there.visible, "the other device"));
 		add(kDevices, std::move(result));
 		return {};
 	}
