@@ -25,7 +25,9 @@ shared uint first_full;
 // True when every triangle shows its back to the eye: the cone of normals around the bounding sphere of the box.
 bool isBackFacing(DisplacedBounds bounds, InstanceRecord instance, Placement placement, View view)
 {
-	if (bounds.cone_cutoff > 1.0 || view.distance_weight == 0.0)
+	// A cone is of what heights leave in place; an offset moves what has directions.
+	bool moves = view.displacement_offset != 0.0 && any(notEqual(bounds.direction_low, bounds.direction_high));
+	if (moves || bounds.cone_cutoff > 1.0 || view.distance_weight == 0.0)
 		return false;
 	vec3 middle = (bounds.low + bounds.high) * 0.5;
 	float radius = length(bounds.high - middle);
@@ -49,7 +51,7 @@ bool isVisible(ClusterGroup group, uint cluster)
 	InstanceRecord instance = args.instances.at[group.instance];
 	DisplacedBounds bounds = args.cluster_bounds.at[cluster];
 	Placement placement = placementOf(instance, view);
-	if (args.cull_frustum != 0u && !boxMayBeVisible(displacedBox(bounds, view.displacement_scale), placement, view))
+	if (args.cull_frustum != 0u && !boxMayBeVisible(displacedBox(bounds, view.displacement_scale, view.displacement_offset), placement, view))
 		return false;
 	return args.cull_backface == 0u || !isBackFacing(bounds, instance, placement, view);
 }

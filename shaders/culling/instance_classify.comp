@@ -21,7 +21,7 @@ bool isVisible(InstanceRecord instance)
 	if (!HAS_CULLING || uint64_t(args.mesh_bounds) == 0ul)
 		return true;
 	View view = frame_view;
-	Box box = displacedBox(args.mesh_bounds.at[instance.mesh], view.displacement_scale);
+	Box box = displacedBox(args.mesh_bounds.at[instance.mesh], view.displacement_scale, view.displacement_offset);
 	return boxMayBeVisible(box, placementOf(instance, view), view);
 }
 

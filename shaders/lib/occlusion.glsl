@@ -60,7 +60,7 @@ vec3 reachInView(vec3 axis0, vec3 axis1, vec3 axis2, View view)
 bool clusterIsHidden(DisplacedBounds bounds, InstanceRecord instance, View view, floatRef pyramid)
 {
 	Placement placement = placementOf(instance, view);
-	Box box = displacedBox(bounds, view.displacement_scale);
+	Box box = displacedBox(bounds, view.displacement_scale, view.displacement_offset);
 	vec3 middle = (box.low + box.high) * 0.5, half_size = box.high - middle;
 	vec3 axis0 = vec3(placement.row0.x, placement.row1.x, placement.row2.x) * half_size.x;
 	vec3 axis1 = vec3(placement.row0.y, placement.row1.y, placement.row2.y) * half_size.y;

@@ -99,7 +99,7 @@ ShadingSurface displacedNormal(Surface surface, BaseTriangle base, vec3 weights,
 	uint level_count = HEIGHT_MAP(surface, base.height_map, level_count);
 	float level = pixelHeightLevel(placed(placement, base_point), placement, source.density, level_count, view);
 	HeightSlope height = displacementSlope(surface, base.height_map, source.uv, level);
-	result.displacement = height.height * view.displacement_scale;
+	result.displacement = (height.height + view.displacement_offset) * view.displacement_scale;
 	vec2 gradient = height.slope * view.displacement_scale;
 	float slope_u = dot(gradient, corners.uv0 - corners.uv2);
 	float slope_v = dot(gradient, corners.uv1 - corners.uv2);

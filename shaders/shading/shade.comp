@@ -106,7 +106,7 @@ vec3 smoothNormalAt(inout SurfacePixel pixel, TriangleCorners corners, SurfacePl
 	HeightSource source = ownHeightSource(corners, base.height_map, weights);
 	float level = pixelHeightLevel(point, placement, source.density, HEIGHT_MAP(frame_surface, base.height_map, level_count), view);
 	HeightSlope height = displacementSlope(frame_surface, base.height_map, source.uv, level);
-	pixel.displacement = height.height * view.displacement_scale;
+	pixel.displacement = (height.height + view.displacement_offset) * view.displacement_scale;
 	vec2 slope = height.slope * view.displacement_scale;
 	return turnedNormal(normalize(normal), place.by_u, place.by_v, direction, dot(slope, corners.uv0 - corners.uv2), dot(slope, corners.uv1 - corners.uv2));
 }

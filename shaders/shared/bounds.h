@@ -60,10 +60,18 @@ SHARED_FN float productHigh(float a, float b, float c, float d)
 }
 
 // The box of everything the displaced surface can reach, a hair wider than exact to cover rounding.
-SHARED_FN Box displacedBox(DisplacedBounds bounds, float displacement_scale)
+SHARED_FN Box displacedBox(DisplacedBounds bounds, float displacement_scale, float displacement_offset)
 {
-	float reach_low = min(bounds.reach_low * displacement_scale, bounds.reach_high * displacement_scale);
-	float reach_high = max(bounds.reach_low * displacement_scale, bounds.reach_high * displacement_scale);
+	float moved_low = bounds.reach_low + displacement_offset;
+	float moved_high = bounds.reach_high + displacement_offset;
+	// What is not displaced stays where it is.
+	if (bounds.reach_low <= 0.0f && bounds.reach_high >= 0.0f)
+	{
+		moved_low = min(moved_low, 0.0f);
+		moved_high = max(moved_high, 0.0f);
+	}
+	float reach_low = min(moved_low * displacement_scale, moved_high * displacement_scale);
+	float reach_high = max(moved_low * displacement_scale, moved_high * displacement_scale);
 	Box box;
 	box.low.x = bounds.low.x + productLow(bounds.direction_low.x, bounds.direction_high.x, reach_low, reach_high);
 	box.low.y = bounds.low.y + productLow(bounds.direction_low.y, bounds.direction_high.y, reach_low, reach_high);
@@ -138,7 +146,7 @@ SHARED_FN PlacedReach placedReach(DisplacedBounds bounds, Placement placement, V
 	float bulge = HAS_PN ? bounds.bulge : 0.0f;
 	at_origin.low = vec3(-bulge, -bulge, -bulge);
 	at_origin.high = vec3(bulge, bulge, bulge);
-	Box box = displacedBox(at_origin, view.displacement_scale);
+	Box box = displacedBox(at_origin, view.displacement_scale, view.displacement_offset);
 	vec3 middle = vec3((box.low.x + box.high.x) * 0.5f, (box.low.y + box.high.y) * 0.5f, (box.low.z + box.high.z) * 0.5f);
 	vec3 half_size = vec3(box.high.x - middle.x, box.high.y - middle.y, box.high.z - middle.z);
 	vec3 size = vec3(bounds.high.x - bounds.low.x, bounds.high.y - bounds.low.y, bounds.high.z - bounds.low.z);

@@ -228,7 +228,8 @@ SHARED_FN precise float displacementAt(Surface surface, HeightSource source, vec
 	float level = heightLevel(footprint_squared, HEIGHT_MAP(surface, source.height_map, level_count));
 	float height = heightAt(surface, source.height_map, source.uv, level);
 	precise float scaled = height * HEIGHT_MAP(surface, source.height_map, factor) + HEIGHT_MAP(surface, source.height_map, offset);
-	precise float displacement = scaled * view.displacement_scale;
+	precise float moved = scaled + view.displacement_offset;
+	precise float displacement = moved * view.displacement_scale;
 	return displacement;
 }
 

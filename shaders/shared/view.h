@@ -28,6 +28,7 @@ struct View
 	float rate_over_focal_squared;    // s^2 of the granted rate; +infinity: every factor is 1
 	float sample_over_focal_squared;  // the same for mip levels; 0 when the rate is 0
 	float displacement_scale;
+	float displacement_offset;  // mesh units, added before the scale
 	uint width_px;
 	uint height_px;
 	// What follows is derived from the above, so that no thread does it again.
@@ -42,7 +43,7 @@ struct View
 	vec3 draw_eye;     // that camera, relative to the eye, scaled
 	vec3 draw_offset;  // the way back along right, up and forward
 };
-SHARED_LAYOUT(View, 192, draw_offset, 180)
+SHARED_LAYOUT(View, 196, draw_offset, 184)
 
 #define SCREEN_SUBPIXELS 256  // positions on screen are rounded to 1/256 pixel
 

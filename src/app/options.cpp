@@ -231,6 +231,8 @@ const std::array kTable = {
 				Rebuild::Scene, true },
 	OptionDesc{ "displacement-scale", "SCALE", "scales every displacement; 0 = none", &AppOptions::displacement_scale, -1e6, 1e6,
 				Rebuild::Pipelines },
+	OptionDesc{ "displacement-offset", "X", "added to every displacement before it is scaled, in mesh units", &AppOptions::displacement_offset, -1e6,
+				1e6 },
 	OptionDesc{ "pn", "on|off", "PN triangles: the base surface is curved between the directions of its vertices; hard edges become round",
 				choiceOf<&AppOptions::pn>(kOffOnNames), 0, 0, Rebuild::Scene },
 	OptionDesc{ "view", "NAME", "what the picture shows", choiceOf<&AppOptions::view>(kViewNames), 0, 0, Rebuild::Pipelines },

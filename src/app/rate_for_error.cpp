@@ -76,6 +76,7 @@ private:
 		ViewRequest request = { options_.width_px, options_.height_px };
 		request.rate_px = double(static_cast<float>(rate));
 		request.displacement_scale = options_.displacement_scale;
+		request.displacement_offset = options_.displacement_offset;
 		TRY_ASSIGN(const View view, makeView(camera_, scene_, request));
 		TRY_ASSIGN(const report::MicroScene micro, report::tessellate(host_, view, options_.max_split, kMostMicroTriangles));
 		if (!surface_)

@@ -30,16 +30,16 @@ bool isBuiltin(std::string_view scene)
 }
 
 // Farthest that a material moves a vertex, in mesh units; heights of float images are taken for 0..1 too.
-double displacementReach(const Material& material)
+double displacementReach(const Material& material, double displacement_offset)
 {
 	if (!material.displacement)
 		return 0;
-	const double offset = double(material.displacement->offset);
+	const double offset = double(material.displacement->offset) + displacement_offset;
 	return std::max(std::abs(offset), std::abs(offset + double(material.displacement->factor)));
 }
 
 // Size of the scene in the world, displaced as far as it can be.
-dvec3 worldSize(const ImportedScene& scene, double displacement_scale)
+dvec3 worldSize(const ImportedScene& scene, const AppOptions& options)
 {
 	constexpr double kInfinity = std::numeric_limits<double>::infinity();
 	dvec3 low(kInfinity), high(-kInfinity);
@@ -48,7 +48,8 @@ dvec3 worldSize(const ImportedScene& scene, double displacement_scale)
 		{
 			const dmat3 axes = dmat3(instance.world);
 			const double scale = std::max({ glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]) });
-			const double reach = displacementReach(scene.materials[primitive.material]) * std::abs(displacement_scale) * scale;
+			const double reach = displacementReach(scene.materials[primitive.material], double(options.displacement_offset)) *
+								 std::abs(double(options.displacement_scale)) * scale;
 			for (const vec3& position : primitive.positions)
 			{
 				const dvec3 world = dvec3(instance.world * dvec4(dvec3(position), 1));
@@ -68,7 +69,7 @@ Status copyOverGrid(ImportedScene& scene, const AppOptions& options)
 		return fail(ExitCode::Usage, "--grid {}x{}: {} has {} instances, copies would be {}; at most {} can be drawn", options.grid_columns,
 					options.grid_rows, scene.path, scene.instances.size(), copies * scene.instances.size(), kMostInstances);
 	const bool needs_size = !options.grid_u || !options.grid_v;
-	const dvec3 size = needs_size ? worldSize(scene, double(options.displacement_scale)) * kGridGap : dvec3(0);
+	const dvec3 size = needs_size ? worldSize(scene, options) * kGridGap : dvec3(0);
 	const dvec3 u = options.grid_u.value_or(dvec3(size.x, 0, 0)), v = options.grid_v.value_or(dvec3(0, 0, -size.z));
 	std::vector<Instance> instances;
 	instances.reserve(copies * scene.instances.size());

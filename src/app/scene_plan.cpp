@@ -47,6 +47,7 @@ Result<ScenePlan> planScene(const BuiltScene& scene, const Camera& camera, const
 	ViewRequest request = { options.width_px, options.height_px };
 	request.rate_px = double(options.rate);
 	request.displacement_scale = options.displacement_scale;
+	request.displacement_offset = options.displacement_offset;
 	request.metric = options.metric;
 	const uint32_t max_split = std::min(options.max_split, table.max_edge_segments);
 	const FactorBound bound = boundFactors(camera, scene, request, table.max_edge_segments, max_split);

@@ -171,6 +171,7 @@ private:
 		request.rate_px = coarsenedRate(double(input_.options.rate), attempt.coarsening);
 		request.every_factor_one = attempt.coarsening == RateController::kMostCoarsening;
 		request.displacement_scale = input_.options.displacement_scale;
+		request.displacement_offset = input_.options.displacement_offset;
 		request.metric = input_.options.metric;
 		return request;
 	}

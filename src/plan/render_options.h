@@ -65,10 +65,11 @@ struct RenderOptions
 	ViewMode view = ViewMode::Shaded;
 	bool wireframe = false;  // sides of micro-triangles and base triangles over the view
 	float displacement_scale = 1;
-	bool smooth_normals = true;  // false: faceted shading
-	bool shadows = false;        // of the sun, by rays
-	uint32_t ao_samples = 0;     // rays per pixel for ambient occlusion; 0: none
-	float ao_radius_world = 0;   // what is farther does not occlude; 0: a tenth of the scene's radius
+	float displacement_offset = 0;  // mesh units, added to every displacement before it is scaled
+	bool smooth_normals = true;     // false: faceted shading
+	bool shadows = false;           // of the sun, by rays
+	uint32_t ao_samples = 0;        // rays per pixel for ambient occlusion; 0: none
+	float ao_radius_world = 0;      // what is farther does not occlude; 0: a tenth of the scene's radius
 	uint32_t width_px = 1920;
 	uint32_t height_px = 1080;
 	std::map<std::string, uint32_t> capacities;  // by list name

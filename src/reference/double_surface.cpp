@@ -263,12 +263,14 @@ DoublePoint DoubleSurface::at(ClusterRef ref, uint32_t triangle, DomainPoint p) 
 	const Height height = heightAt(source, ref.instance, point.base, point.base_bound);
 	const HeightMap& map = built.height_maps[source.height_map].record;
 	point.level = height.level;
-	point.displacement = (height.value * map.factor + map.offset) * view_.displacement_scale;
+	point.displacement = (height.value * map.factor + map.offset + view_.displacement_offset) * view_.displacement_scale;
 	point.displaced = point.base + direction * point.displacement;
 
 	const double scale = std::abs(double(view_.displacement_scale));
 	const double displacement_bound =
-		(height.bound * std::abs(map.factor) + 4 * kEpsilon * (std::abs(height.value * map.factor) + std::abs(map.offset))) * scale;
+		(height.bound * std::abs(map.factor) +
+		 5 * kEpsilon * (std::abs(height.value * map.factor) + std::abs(map.offset) + std::abs(view_.displacement_offset))) *
+		scale;
 	// Interpolated unit vectors are off by 3 roundings in each axis; the shorter their sum, the more that turns it.
 	const double direction_bound = length > 0 ? std::min(2.0, kNormalizedError + 3 * 1.75 * kEpsilon / length) : 0;
 	point.displaced_bound = point.base_bound + displacement_bound + direction_bound * (std::abs(point.displacement) + displacement_bound) +
@@ -291,7 +293,7 @@ dvec3 DoubleSurface::onFinestMip(const BaseTriangle& base, dvec3 weights) const
 		return point;
 	const HeightMapData& map = built.height_maps[source.height_map];
 	const double height = bilinear(map, 0, source.uv);
-	return point + sum * ((height * map.record.factor + map.record.offset) * view_.displacement_scale / length);
+	return point + sum * ((height * map.record.factor + map.record.offset + view_.displacement_offset) * view_.displacement_scale / length);
 }
 
 double DoubleSurface::realFactor(ClusterRef ref, uint32_t triangle, DomainPoint p, DomainPoint q) const

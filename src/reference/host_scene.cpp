@@ -113,7 +113,7 @@ std::vector<ClusterRef> allClusters(const HostScene& scene)
 std::vector<ClusterRef> clustersInFrustum(const HostScene& scene, const View& view)
 {
 	return clustersThat(scene, [&](const InstanceRecord& instance, const DisplacedBounds& bounds) {
-		return boxMayBeVisible(displacedBox(bounds, view.displacement_scale), placementOf(instance, view), view);
+		return boxMayBeVisible(displacedBox(bounds, view.displacement_scale, view.displacement_offset), placementOf(instance, view), view);
 	});
 }
 

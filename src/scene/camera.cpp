@@ -185,6 +185,7 @@ Result<View> makeView(const Camera& camera, const BuiltScene& scene, const ViewR
 	setProjection(view, camera, scene, request, unit);
 	setRate(view, camera, request);
 	view.displacement_scale = request.displacement_scale;
+	view.displacement_offset = request.displacement_offset;
 	view.width_px = request.width_px;
 	view.height_px = request.height_px;
 	setDerived(view, basis);

@@ -29,6 +29,7 @@ struct ViewRequest
 	double rate_px = 4;             // granted rate, pixels per segment; 0: every factor is 1
 	bool every_factor_one = false;  // the coarsest a frame can be (C2)
 	float displacement_scale = 1;
+	float displacement_offset = 0;  // mesh units, before the scale
 	Metric metric = Metric::Edge;
 };
 

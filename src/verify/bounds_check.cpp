@@ -60,8 +60,8 @@ CheckResult checkBounds(const reference::HostScene& scene, const View& view, std
 		if (i < sorted.size() && sameCluster(sorted[first].cluster, sorted[i].cluster))
 			continue;
 		const ClusterRef ref = sorted[first].cluster;
-		const Box cluster_box = displacedBox(built.cluster_bounds[ref.cluster], view.displacement_scale);
-		const Box mesh_box = displacedBox(built.mesh_bounds[built.instances[ref.instance].mesh], view.displacement_scale);
+		const Box cluster_box = displacedBox(built.cluster_bounds[ref.cluster], view.displacement_scale, view.displacement_offset);
+		const Box mesh_box = displacedBox(built.mesh_bounds[built.instances[ref.instance].mesh], view.displacement_scale, view.displacement_offset);
 		const double ratio = checkCluster(cluster_box, mesh_box, sorted.subspan(first, i - first), result);
 		first = i;
 		if (ratio == 0)

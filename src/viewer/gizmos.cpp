@@ -101,7 +101,7 @@ void drawInstance(LineDrawing& drawing, const Session& session, uint32_t index, 
 	const Gizmos& wanted = session.gizmos;
 	const Instance& instance = scene.instances[index];
 	const MeshRecord& mesh = scene.meshes[instance.mesh];
-	const float scale = session.shown.options.displacement_scale;
+	const float scale = session.shown.options.displacement_scale, offset = session.shown.options.displacement_offset;
 	const auto first = visible.lower_bound({ index, 0 });
 	const bool instance_kept = first != visible.end() && first->first == index;
 	const auto shows = [&](bool kept) {
@@ -110,7 +110,7 @@ void drawInstance(LineDrawing& drawing, const Session& session, uint32_t index, 
 	if (wanted.instances && shows(instance_kept) && boxes < kMostBoxes)
 	{
 		++boxes;
-		drawing.box(placedCorners(displacedBox(scene.mesh_bounds[instance.mesh], scale), instance), instance_kept ? kKept : kCulled, 2);
+		drawing.box(placedCorners(displacedBox(scene.mesh_bounds[instance.mesh], scale, offset), instance), instance_kept ? kKept : kCulled, 2);
 	}
 	if (!wanted.clusters && !wanted.cones)
 		return;
@@ -121,7 +121,7 @@ void drawInstance(LineDrawing& drawing, const Session& session, uint32_t index, 
 			continue;
 		++boxes;
 		if (wanted.clusters)
-			drawing.box(placedCorners(displacedBox(scene.cluster_bounds[c], scale), instance), kept ? kKept : kCulled);
+			drawing.box(placedCorners(displacedBox(scene.cluster_bounds[c], scale, offset), instance), kept ? kKept : kCulled);
 		if (wanted.cones)
 			drawCone(drawing, scene.cluster_bounds[c], instance);
 	}

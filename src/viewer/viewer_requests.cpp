@@ -79,7 +79,7 @@ void Viewer::frameSelection()
 	if (session_.inspection && session_.inspection->covered)
 	{
 		const Instance& instance = scene.instances[session_.inspection->cluster.instance];
-		const Box box = displacedBox(scene.mesh_bounds[instance.mesh], session_.options.displacement_scale);
+		const Box box = displacedBox(scene.mesh_bounds[instance.mesh], session_.options.displacement_scale, session_.options.displacement_offset);
 		centre = dvec3(instance.world * dvec4(dvec3(box.low + box.high) / 2.0, 1));
 		const dvec3 half = dvec3(box.high - box.low) / 2.0;
 		radius = glm::length(dvec3(instance.world[0])) * half.x + glm::length(dvec3(instance.world[1])) * half.y +

@@ -12,6 +12,19 @@
 namespace tessera::view
 {
 
+namespace
+{
+
+// What is drawn of a scene until the one that was asked for is there: a metric's tables come with the scene.
+RenderOptions drawableOptions(const AppOptions& options, const LoadedScene& scene)
+{
+	RenderOptions drawable = options;
+	drawable.metric = scene.request.options.metric;
+	return drawable;
+}
+
+}  // namespace
+
 void Viewer::load(const std::string& scene, bool keeps_camera)
 {
 	loaded_ = session_.options;
@@ -32,7 +45,8 @@ void Viewer::takeScene()
 	}
 	if (!next_scene_)
 		return;
-	auto made = Renderer::create(*device_, next_scene_->subject.scene, next_scene_->subject.table, framePasses(), session_.options);
+	auto made = Renderer::create(*device_, next_scene_->subject.scene, next_scene_->subject.table, framePasses(),
+								 drawableOptions(session_.options, *next_scene_));
 	const std::shared_ptr<LoadedScene> scene = std::exchange(next_scene_, nullptr);
 	if (!made)
 		return report(made.error());
@@ -110,7 +124,7 @@ bool Viewer::followOptions()
 		return false;
 	}
 	const bool needs_scene = stale >= Rebuild::Scene || applied_.table != session_.options.table;
-	if (const Status set = renderer_->setOptions(session_.options); !set)
+	if (const Status set = renderer_->setOptions(drawableOptions(session_.options, *renderer_scene_)); !set)
 	{
 		report(set.error());
 		const uint32_t width = session_.options.width_px, height = session_.options.height_px;

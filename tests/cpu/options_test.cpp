@@ -83,6 +83,7 @@ const std::vector<std::pair<std::string, std::string>> kSamples = {
 	{ "displacement-scale", "-0.7" },
 	{ "view", "wireframe" },
 	{ "shading", "flat" },
+	{ "displacement-offset", "0.25" },
 	{ "pn", "on" },
 	{ "shadows", "on" },
 	{ "ao", "16" },

@@ -273,9 +273,9 @@ TEST(pnTriangles, lieWithinTheHullOfTheirControlPointsAndThoseBoundTheClusters)
 	for (const uint32_t cuts : { 1u, 3u })
 	{
 		const ReferenceScene scene(roundScene(cuts), defaultTable(), kPn);
-		const Box mesh = displacedBox(scene.built.mesh_bounds[0], 1);
+		const Box mesh = displacedBox(scene.built.mesh_bounds[0], 1, 0);
 		forEachTriangle(scene, [&](ClusterRef ref, uint32_t t) {
-			const Box box = displacedBox(scene.built.cluster_bounds[ref.cluster], 1);
+			const Box box = displacedBox(scene.built.cluster_bounds[ref.cluster], 1, 0);
 			for (int i = 0; i < 200; ++i)
 			{
 				const vec3 p = sampleAtPoint(scene.host.surface(), scene.host.base(ref, t), random.domain()).base;

@@ -287,6 +287,21 @@ TEST(doubleSurface, floatPositionsStayWithinTheStatedBoundInEveryTestScene)
 		}
 }
 
+TEST(doubleSurface, anOffsetIsAddedBeforeTheScale)
+{
+	// An octahedron whose corners' directions are its own: heights of 1 times 1.5.
+	const ReferenceScene scene(coarseSphereScene());
+	ViewRequest asked = request(300, 5);
+	asked.displacement_scale = 2;
+	asked.displacement_offset = 0.25f;
+	const View view = viewOf(scene, framingCamera(scene.built), asked);
+	const reference::MicroVertex corner = reference::evaluatePoint(scene.host, view, { 0, 0 }, 0, domainCorner(0));
+	EXPECT_FLOAT_EQ(glm::length(corner.displaced), 1 + (1.5f + 0.25f) * 2);
+	Errors errors;
+	compareWithDouble(scene, view, MipLog::PiecewiseLinear, errors);
+	EXPECT_GT(errors.points, 50u);
+}
+
 TEST(doubleSurface, builtinScenesStayWithinTheStatedBound)
 {
 	for (const std::string_view name : { "planet", "bricks", "instances:8" })

@@ -71,20 +71,21 @@ struct Samples
 	double tightness = 0;  // mean over clusters: area of the box over that of the points found
 };
 
-Samples sampleClusters(const BuiltScene& scene, float scale, std::mt19937& random)
+Samples sampleClusters(const BuiltScene& scene, float scale, float offset, std::mt19937& random)
 {
 	const HostSurface host(scene);
-	const Box mesh_box = displacedBox(scene.mesh_bounds[0], scale);
+	const Box mesh_box = displacedBox(scene.mesh_bounds[0], scale, offset);
 	Samples samples;
 	for (size_t i = 0; i < scene.clusters.size(); ++i)
 	{
-		const Box box = displacedBox(scene.cluster_bounds[i], scale);
+		const Box box = displacedBox(scene.cluster_bounds[i], scale, offset);
 		vec3 low(1e30f), high(-1e30f);
 		for (int j = 0; j < 3000; ++j)
 		{
 			// A random mip each time: all must be inside.
 			View view = viewFrom(vec3(0.4f, 0.3f, 2), j % 4 ? std::exp2(float(below(random, 1000)) * 0.015f - 14) : 0);
 			view.displacement_scale = scale;
+			view.displacement_offset = offset;
 			const BaseTriangle base = baseTriangle(host.surface, scene.clusters[i], below(random, clusterTriangles(scene.clusters[i])));
 			const vec3 p = surfacePoint(host.surface, base, randomPoint(random), placementFor(view), view).displaced;
 			samples.outside_cluster += !contains(box, p);
@@ -105,13 +106,13 @@ TEST(sceneBounds, containTheDisplacedSurfaceAtEveryMip)
 	for (const NamedScene& named : allScenes())
 		for (const uint32_t triangles : { 4u, 64u })
 			for (const bool pn : { false, true })
-				for (const float scale : { 1.0f, -2.5f })
+				for (const auto& [scale, offset] : { std::pair(1.0f, 0.0f), std::pair(-2.5f, 0.0f), std::pair(1.0f, 0.7f), std::pair(0.5f, -1.5f) })
 				{
 					const BuiltScene scene = built(named.scene, { .cluster_vertices = 64, .cluster_triangles = triangles, .pn = pn });
-					const Samples samples = sampleClusters(scene, scale, random);
+					const Samples samples = sampleClusters(scene, scale, offset, random);
 					EXPECT_EQ(samples.outside_cluster, 0u) << named.name;
 					EXPECT_EQ(samples.outside_mesh, 0u) << named.name;
-					if (scale == 1)
+					if (scale == 1 && offset == 0)
 						printf("%-28s %2u triangles a cluster%s: box area %.2f times that of the surface\n", named.name.c_str(), triangles,
 							   pn ? ", PN triangles" : "", samples.tightness);
 				}
@@ -130,6 +131,28 @@ TEST(sceneBounds, boundingTheDisplacedCornersWouldNotBeEnough)
 	for (uint32_t corner = 0; corner < 3; ++corner)
 		sum += surfacePoint(host.surface, base, domainCorner(corner), placementFor(view), view).displaced;
 	EXPECT_GT(glm::length(middle), 1.2f * glm::length(sum / 3.0f));
+}
+
+TEST(sceneBounds, whatHeightsOfZeroLeaveInPlaceIsBoundedWhereAnOffsetMovesIt)
+{
+	// Black but for a texel far from every texture coordinate, which coarse mips round away: no triangle moves.
+	ImportedScene imported = coarseSphereScene();
+	imported.images[0] = constantImage(64, 64, TexelFormat::U8, 0);
+	imported.images[0].texels[45 * 64 + 10] = std::byte(255);
+	const BuiltScene scene = built(imported, { .cluster_vertices = 8, .cluster_triangles = 4 });
+	std::mt19937 random(3);
+	for (const float offset : { 0.0f, 0.4f, -0.3f })
+	{
+		const Samples samples = sampleClusters(scene, 1.5f, offset, random);
+		EXPECT_EQ(samples.outside_cluster + samples.outside_mesh, 0u) << offset;
+	}
+	for (const DisplacedBounds& bounds : scene.cluster_bounds)
+	{
+		EXPECT_EQ(bounds.reach_low, 0);
+		EXPECT_EQ(bounds.reach_high, 0);
+		EXPECT_LT(bounds.direction_low.x, bounds.direction_high.x);
+		EXPECT_EQ(displacedBox(bounds, 1.5f, 0).high, displacedBox(bounds, 1, 0).high);
+	}
 }
 
 TEST(sceneBounds, undisplacedClustersHaveNoReachUnlessADisplacedNeighbourOwnsTheirEdge)

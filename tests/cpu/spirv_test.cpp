@@ -108,11 +108,11 @@ struct HostLayout
 
 HostLayout viewLayout()
 {
-	HostLayout layout =
-		LAYOUT(12, View, eye_high, eye_low, right, up, forward, unit, inverse_unit_squared, focal_x, focal_y, depth_slope, depth_offset, w_slope);
+	HostLayout layout = LAYOUT(13, View, eye_high, eye_low, right, up, forward, unit, inverse_unit_squared, focal_x, focal_y, depth_slope,
+							   depth_offset, w_slope, w_offset);
 	const HostLayout rest =
-		LAYOUT(16, View, w_offset, near, distance_weight, distance_floor_squared, rate_over_focal_squared, sample_over_focal_squared,
-			   displacement_scale, width_px, height_px, width_subpixels, height_subpixels, ray_first, ray_x, ray_y, draw_eye, draw_offset);
+		LAYOUT(16, View, near, distance_weight, distance_floor_squared, rate_over_focal_squared, sample_over_focal_squared, displacement_scale,
+			   displacement_offset, width_px, height_px, width_subpixels, height_subpixels, ray_first, ray_x, ray_y, draw_eye, draw_offset);
 	layout.fields.insert(layout.fields.end(), rest.fields.begin(), rest.fields.end());
 	return layout;
 }

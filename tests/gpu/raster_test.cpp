@@ -121,11 +121,12 @@ TEST_F(raster, microVerticesOfPnTrianglesEqualTheReferenceBitForBit)
 TEST_F(raster, microVerticesOfScaledAndUnscaledDisplacementEqualTheReferenceBitForBit)
 {
 	const auto scene = gpuScene("cube");
-	for (const float scale : { -0.7f, 0.0f, 2.5f })
+	for (const auto& [scale, offset] : { std::pair(-0.7f, 0.0f), std::pair(0.0f, 0.0f), std::pair(2.5f, 0.0f), std::pair(0.5f, 0.3f) })
 	{
 		RenderOptions options = smallOptions(4);
 		options.displacement_scale = scale;
-		expectSameVertices(drawFrame(*scene, options), fmt::format("scale {}", scale));
+		options.displacement_offset = offset;
+		expectSameVertices(drawFrame(*scene, options), fmt::format("scale {}, offset {}", scale, offset));
 	}
 }
 

@@ -5,6 +5,7 @@
 #include "scene/build/pn_patch.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 
@@ -46,6 +47,19 @@ void includeFootprint(const std::vector<HeightRanges>& maps, uint32_t map, vec2 
 		reach.include(0.0f);
 	else
 		reach.include(maps[map].displacement(maps[map].over(low, high, mips)));
+}
+
+// The triangle, or the owner of one of its edges or corners, has a height map.
+bool readsHeights(const BuiltScene& scene, const ClusterTriangle& triangle, uint32_t own_map)
+{
+	bool reads = own_map != NO_INDEX;
+	const uint32_t first = scene.first_seam_edges.empty() ? 0 : scene.first_seam_edges[triangle.index];
+	for (int i = 0; i < std::popcount(triangleSeamFlags(triangle.flags)); ++i)
+		reads = reads || scene.seam_edges[first + uint32_t(i)].height_map != NO_INDEX;
+	for (const uint32_t vertex : triangle.vertices)
+		if (!scene.seam_corner_indices.empty() && scene.seam_corner_indices[vertex] != NO_INDEX)
+			reads = reads || scene.seam_corners[scene.seam_corner_indices[vertex]].height_map != NO_INDEX;
+	return reads;
 }
 
 // Every displacement that a point of the triangle can have while the finest `mips` are read, whoever owns its edges and corners.
@@ -149,7 +163,8 @@ void boundDisplacement(const BuiltScene& scene, const std::vector<HeightRanges>&
 		const Interval own = triangleReach(scene, maps, triangle, own_map);
 		reach.include(own);
 		triangle_reaches[triangle.index] = {};
-		if (own.low == 0 && own.high == 0)
+		// Heights of 0 count: an offset may move what they leave in place.
+		if (!readsHeights(scene, triangle, own_map))
 			continue;
 		includeDirections({ scene.directions[triangle.vertices[0]], scene.directions[triangle.vertices[1]], scene.directions[triangle.vertices[2]] },
 						  directions);
@@ -268,7 +283,7 @@ DisplacedBounds meshBounds(const BuiltScene& scene, const MeshRecord& mesh)
 		bounds.longest_edge = std::max(bounds.longest_edge, cluster.longest_edge);
 		bounds.reach_low = i == mesh.first_cluster ? cluster.reach_low : std::min(bounds.reach_low, cluster.reach_low);
 		bounds.reach_high = i == mesh.first_cluster ? cluster.reach_high : std::max(bounds.reach_high, cluster.reach_high);
-		if (cluster.reach_low == 0 && cluster.reach_high == 0)
+		if (cluster.direction_low == vec3(0) && cluster.direction_high == vec3(0))
 			continue;
 		bounds.direction_low = glm::min(bounds.direction_low, cluster.direction_low);
 		bounds.direction_high = glm::max(bounds.direction_high, cluster.direction_high);
@@ -287,7 +302,7 @@ void boundWorld(BuiltScene& scene)
 	{
 		if (scene.meshes[instance.mesh].cluster_count == 0)
 			continue;
-		const Box box = displacedBox(scene.mesh_bounds[instance.mesh], 1.0f);
+		const Box box = displacedBox(scene.mesh_bounds[instance.mesh], 1.0f, 0.0f);
 		for (int corner = 0; corner < 8; ++corner)
 		{
 			const dvec3 p(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y, corner & 4 ? box.high.z : box.low.z);

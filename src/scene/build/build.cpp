@@ -50,7 +50,7 @@ Status checkReach(const BuiltScene& scene)
 	{
 		if (scene.meshes[i].cluster_count == 0)
 			continue;
-		const Box box = displacedBox(scene.mesh_bounds[i], 1.0f);
+		const Box box = displacedBox(scene.mesh_bounds[i], 1.0f, 0.0f);
 		const double reach = std::max(largestOf(box.low), largestOf(box.high));
 		if (!(reach <= kFarthest))
 			return badInput("{}: mesh {} reaches {:.3g} mesh units from its origin, displaced; at most 2^60 (1.15e18) is right", scene.path, i,

@@ -7,7 +7,7 @@ namespace tessera::view
 namespace
 {
 
-constexpr std::string_view kOptions[] = { "rate", "metric", "max-split", "pn", "displacement-scale", "table" };
+constexpr std::string_view kOptions[] = { "rate", "metric", "max-split", "pn", "displacement-scale", "displacement-offset", "table" };
 
 void draw(Ui& ui, Session& session)
 {
@@ -21,6 +21,9 @@ void draw(Ui& ui, Session& session)
 	ui.option("max-split", options);
 	ui.option("pn", options);
 	ui.slider("displacement-scale", "displacement-scale", options.displacement_scale, -4, 4, optionTooltip(*findOption("displacement-scale")));
+	const auto reach = session.scene ? static_cast<float>(boundingRadius(session.scene->subject.scene)) / 4 : 1.0f;
+	ui.slider("displacement-offset", "displacement-offset", options.displacement_offset, -reach, reach,
+			  optionTooltip(*findOption("displacement-offset")));
 	ui.option("table", options);
 	const FrameResult& result = session.shown.result;
 	if (!ImGui::BeginTable("counts", 2))
