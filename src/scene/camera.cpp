@@ -277,8 +277,12 @@ FactorBound boundFactors(const Camera& camera, const BuiltScene& scene, const Vi
 			bound.largest_factor = std::max(bound.largest_factor, scene.mesh_longest_edge[instance.mesh] * largestScale(instance) / (s * distance));
 		}
 		if (request.metric == Metric::Displaced)
+		{
+			// As tableScaleSquared of shared/edge_detail.h.
+			const double scale_squared = double(request.displacement_scale) * double(request.displacement_scale);
 			bound.largest_factor *=
-				std::sqrt(1 + double(scene.most_roughness) * double(request.displacement_scale) * double(request.displacement_scale));
+				std::sqrt(1 + double(scene.most_roughness) * (scene.traits.has_pn ? std::max(scale_squared, 1.0) : scale_squared));
+		}
 		bound.largest_factor *= 1.001;  // covers float rounding on the device
 	}
 	bound.above_one = bound.largest_factor >= 1.5;
