@@ -2,7 +2,8 @@
 # Installs what building and testing tessera needs: system packages, and newer Vulkan headers inside build/.
 #
 #   thirdparty/setup.sh           build and tests
-#   thirdparty/setup.sh --all     also clang, clang-tidy and clang-format (for ./test.sh --all)
+#   thirdparty/setup.sh --all     also clang, clang-tidy and clang-format (for ./test.sh --all), a browser for the test of the report's page, and what
+#                                 docs/reports/make.sh needs
 #
 # Debian 12 and 13 are installed for (as root or through sudo); elsewhere it says what is missing and how to get it.
 # Safe to run twice; when everything is there it calls no package tool but a query and takes no time.
@@ -21,7 +22,7 @@ build_packages=(build-essential cmake ninja-build ccache pkg-config patchelf
 run_packages=(librsvg2-bin)
 test_packages=(libgtest-dev libgmock-dev vulkan-validationlayers assimp-testmodels
 	xvfb xdotool imagemagick python3 python3-xlib)
-all_packages=(clang clang-tidy clang-format libclang-rt-dev)
+all_packages=(clang clang-tidy clang-format libclang-rt-dev chromium glmark2-data assimp-utils)
 
 say()  { echo "setup: $*"; }
 stop() { echo "setup: $*" >&2; exit 1; }

@@ -68,7 +68,9 @@ std::string numbered(const std::string& path, uint32_t index)
 
 void tellBudget(const BudgetOutcome& outcome)
 {
-	logInfo("--max-ms {:.4g}: {:.4g} pixels per segment at the end, after {} to find the first rate", outcome.budget_ms, outcome.rate_px,
+	logInfo("--max-ms {:.4g}: {} of {} within a tenth of it, the longest {:.4g} ms; {:.4g} pixels per segment at the end, after {} to find the first "
+			"rate",
+			outcome.budget_ms, outcome.frames - outcome.over_tenth, counted(outcome.frames, "frame"), outcome.longest_ms, outcome.rate_px,
 			counted(outcome.settling_frames, "frame"));
 	if (outcome.over_tenth > 0 || !outcome.settled)
 		logWarning("--max-ms {:.4g}: {} of {} took over a tenth more, the longest {:.4g} ms{}", outcome.budget_ms, outcome.over_tenth,
@@ -118,6 +120,8 @@ nlohmann::ordered_json budgetJson(const BudgetOutcome& outcome)
 			 { "rate", outcome.rate_px },
 			 { "settled", outcome.settled },
 			 { "settling_frames", outcome.settling_frames },
+			 { "frames", outcome.frames },
+			 { "frames_within_a_tenth", outcome.frames - outcome.over_tenth },
 			 { "longest_frame_ms", outcome.longest_ms },
 			 { "frames_over_a_tenth_more", outcome.over_tenth } };
 }

@@ -47,3 +47,7 @@ foreach(family IN ITEMS scale geometry displacement views counts animation)
 endforeach()
 add_test(NAME verifySuite.extreme COMMAND tessera verify --suite extreme --quiet)
 set_tests_properties(verifySuite.extreme PROPERTIES LABELS slow SKIP_RETURN_CODE 4 TIMEOUT 7200)
+
+# The page of a report in a browser. Exit code 77: it is missing (thirdparty/setup.sh --all installs it), or there is no device.
+add_test(NAME report.opensInABrowser COMMAND ${here}/../report/report_page.sh $<TARGET_FILE:tessera>)
+set_tests_properties(report.opensInABrowser PROPERTIES LABELS gpu TIMEOUT 600 SKIP_RETURN_CODE 77)

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace tessera::test
 {
@@ -125,6 +127,54 @@ TEST_F(reportCommand, whatTheSceneDoesNotNeedIsMeasuredByForcingItOn)
 	EXPECT_EQ(again["left_out"], report["left_out"]);
 }
 
+TEST_F(reportCommand, alongACameraPathFiguresAreThoseOfItsKeysTogether)
+{
+	const std::string keys[] = {
+		R"({"time_s": 0, "eye": [0, 1.2, 1.6], "target": [0, 0, 0], "up": [0, 1, 0], "fov_deg": 50})",
+		R"({"time_s": 1, "eye": [0.4, 0.7, 0.9], "target": [0, 0, 0], "up": [0, 1, 0], "fov_deg": 40})",
+		R"({"time_s": 2, "eye": [1.5, 2, 1], "target": [0, 0, 0], "up": [0, 1, 0], "fov_deg": 60})",
+	};
+	const auto runAlong = [&](const std::string& name, const std::string& path) {
+		const std::filesystem::path file = scratchFolder() / (name + ".json");
+		EXPECT_TRUE(writeFile(file, std::string_view("{\"keys\": [" + path + "]}")));
+		const ProgramRun run = runTessera(fmt::format("{}{} --raster soft --rates 12 --camera-path {} --quiet", kArguments, name, file.string()));
+		EXPECT_EQ(run.exit_code, 0) << run.errors;
+		const json report = json::parse(textOf(name + "/report.json"), nullptr, false);
+		EXPECT_TRUE(report.is_object() && report["runs"].size() == 1) << name;
+		return report.is_object() ? report["runs"][0] : json();
+	};
+	const json all = runAlong("along_all", keys[0] + ", " + keys[1] + ", " + keys[2]);
+	std::vector<json> alone;
+	for (int i = 0; i < 3; ++i)
+		alone.push_back(runAlong(fmt::format("along_{}", i), keys[i]));
+	EXPECT_EQ(all["cameras"], 3);
+	EXPECT_EQ(all["frames"], 3);  // shared out
+	uint64_t micro_triangles = 0;
+	for (const char* region : { "visible", "whole" })
+	{
+		double most = 0, squares = 0, sum = 0;
+		for (const json& one : alone)
+		{
+			const json& px = one["surface"][region]["px"];
+			most = std::max(most, double(px["max"]));
+			squares += double(px["rms"]) * double(px["rms"]) / 3;
+			sum += double(px["p99"]) / 3;
+		}
+		const json& px = all["surface"][region]["px"];
+		EXPECT_NEAR(px["max"], most, 1e-9) << region;
+		EXPECT_NEAR(px["rms"], std::sqrt(squares), 1e-9) << region;
+		EXPECT_NEAR(px["p99"], sum, 1e-9) << region;
+	}
+	for (const json& one : alone)
+		micro_triangles += uint64_t(one["counts"]["micro_triangles"]);
+	EXPECT_EQ(all["counts"]["micro_triangles"], micro_triangles / 3);
+	// The picture is that of the first key.
+	EXPECT_EQ(all["image"], alone[0]["image"]);
+	// A single key is a camera like any other, and what is no path is refused.
+	EXPECT_EQ(alone[0]["cameras"], 1);
+	EXPECT_EQ(runTessera(std::string(kArguments) + "along_none --raster soft --rates 12 --camera-path /no/such/path.json --quiet").exit_code, 3);
+}
+
 TEST_F(reportCommand, wrongUsageIsRefusedBeforeAnythingIsWritten)
 {
 	EXPECT_EQ(runTessera(std::string(kArguments) + "none --rates 4,fast --quiet").exit_code, 2);
@@ -163,6 +213,8 @@ TEST_F(reportCommand, renderGoesAsFarAsATimeBudgetAsksFor)
 	ASSERT_TRUE(stats.is_object());
 	const json& budget = stats["budget"];
 	EXPECT_EQ(budget["rate"], 256);
+	EXPECT_EQ(budget["frames"], 5);
+	EXPECT_EQ(budget["frames_within_a_tenth"], 0);
 	EXPECT_EQ(budget["frames_over_a_tenth_more"], 5);
 	EXPECT_GT(budget["settling_frames"], 3);
 	EXPECT_FLOAT_EQ(stats["frame"]["rate_wanted"], 256);

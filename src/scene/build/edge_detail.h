@@ -8,8 +8,8 @@ namespace tessera
 // How far the displaced surface lies from uniform tessellations of itself: fills in triangle_details from everything else in `scene`; leaves it empty
 // when nothing is displaced.
 //
-// The surface is sampled over every base triangle, at least every texel, at the finest mip and displacement scale 1; where that takes more than 24
-// million samples in all, the closest meet farther apart. The largest distance from the planes of the micro-triangles of 1, 2, 4 .. 128 segments per
+// The surface is sampled over every base triangle, at most two thirds of a texel apart, at the finest mip and displacement scale 1; where that takes
+// more than 8 million samples in all, those that lie closest lie farther apart. The largest distance from the planes of the micro-triangles of 1, 2, 4 .. 128 segments per
 // edge makes the triangle's curve; an edge has the largest of all triangles that meet there. Deviations are displacement alone, so they scale with
 // it. Linear in height texels used; on all threads.
 void buildEdgeDetails(BuiltScene& scene);
