@@ -4,8 +4,8 @@
 #
 #   bench/metric_fronts.sh TESSERA OUT_FOLDER [option of report ...]
 #
-# From the environment: SCENES, METRICS (first: what the others are compared with), RATES, SIZE. Options go to every report; the folder keeps the
-# reports.
+# From the environment: SCENES, METRICS (first: what the others are compared with), RATES, SIZE. Options go to every report (not
+# --quiet); the folder keeps the reports.
 set -euo pipefail
 
 tessera=${1:?usage: $0 TESSERA OUT_FOLDER [option ...]}
@@ -24,7 +24,7 @@ do
 	started=$SECONDS
 	"$tessera" report "builtin:$scene" --size "$size" --rates "$rates" --metrics "$metrics" --raster auto --frames 48 --warmup 16 \
 		--measure-left-out off -o "$folder" "$@" 2> "$folder.log" || { tail -n 1 "$folder.log" >&2; exit 1; }
-	grep -E 'times the (GPU time|micro-triangles) of' "$folder.log" | sed -E "s/^.*([0-9]+x[0-9]+, [a-z]+: )/$scene: \1/" | tee -a "$out/fronts.txt"
+	{ grep -oE '[0-9]+x[0-9]+, [a-z]+: [a-z]+ takes .*' "$folder.log" || echo "no errors in common"; } | sed "s/^/$scene: /" | tee -a "$out/fronts.txt"
 	echo "$scene: $((SECONDS - started)) s"
 done
 
@@ -42,6 +42,8 @@ awk -v baseline="${metrics%%,*}" '
 		least = 1
 		for (metric in metrics)
 		{
+			if (!count[metric, "GPU time"])
+				continue
 			time = exp(sum[metric, "GPU time"] / count[metric, "GPU time"])
 			printf "%s: %.3f times the GPU time of %s at equal error, %.3f times its micro-triangles (geometric means over %d scenes)\n",
 				metric, time, baseline, exp(sum[metric, "micro-triangles"] / count[metric, "micro-triangles"]), count[metric, "GPU time"]
