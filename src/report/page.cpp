@@ -129,7 +129,7 @@ std::string numericsHtml(const ReportData& data)
 std::string savedText(const LeftOut& item)
 {
 	if (!item.saved_ms)
-		return "";
+		return "not measured";
 	const std::string text = fmt::format("{:.4f} ± {:.4f}", *item.saved_ms, item.noise_ms);
 	return item.measured_with == item.name ? text : fmt::format("{} (with {})", text, escaped(item.measured_with));
 }
@@ -140,14 +140,17 @@ std::string leftOutHtml(const ReportData& data)
 		"<h2>What the scene does not need</h2><p class=\"quiet\">At the first rate, metric and picture size. Held: {}; not allocated: {}. "
 		"Milliseconds: median GPU time of a frame with it forced on (<code>--force NAME</code>) less that without it, the two drawn in turn; after ± "
 		"two standard errors. What is kept under one condition is forced together.</p><div class=\"scroll\"><table><thead><tr><th "
-		"class=\"text\">what</th><th class=\"text\">name</th><th>bytes saved</th><th>ms saved</th><th class=\"text\">why it is left "
-		"out</th><th class=\"text\">why no time</th></tr></thead><tbody>",
+		"class=\"text\">what</th><th class=\"text\">name</th><th>bytes saved</th><th>ms saved</th><th class=\"text\">why it is left out; why "
+		"no time</th></tr></thead><tbody>",
 		bytesText(data.bytes_kept), bytesText(data.bytes_saved));
 	for (const LeftOut& item : data.left_out)
-		html += fmt::format("<tr><td class=\"text\">{}</td><td class=\"text\">{}</td><td>{}</td><td>{}</td><td class=\"text wide\">{}</td>"
-							"<td class=\"text wide\">{}</td></tr>",
+	{
+		const std::string no_time =
+			item.not_measured.empty() ? "" : fmt::format("<br><span class=\"quiet\">No time: {}</span>", escaped(item.not_measured));
+		html += fmt::format("<tr><td class=\"text\">{}</td><td class=\"text\">{}</td><td>{}</td><td>{}</td><td class=\"text wide\">{}{}</td></tr>",
 							escaped(item.kind), escaped(item.name), item.bytes > 0 ? bytesText(item.bytes) : "", savedText(item),
-							escaped(item.reason), escaped(item.not_measured));
+							escaped(item.reason), no_time);
+	}
 	return html + "</tbody></table></div>";
 }
 
