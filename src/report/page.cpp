@@ -107,12 +107,14 @@ std::string numericsHtml(const ReportData& data)
 		"units in "
 		"the last place of its largest coordinate, against the same evaluation in double precision; that error over the bound derived for it; edges "
 		"whose two sides differ in any bit; micro-triangles without area.</p><div class=\"scroll\"><table><thead><tr><th>picture</th><th>rate</th>"
-		"<th>vertices</th><th>not finite</th><th>base, ulp</th><th>displaced, ulp</th><th>of bound</th><th>shared edges</th><th>points on "
+		"<th>metric</th><th>vertices</th><th>not finite</th><th>base, ulp</th><th>displaced, ulp</th><th>of bound</th><th>shared "
+		"edges</th><th>points on "
 		"them</th><th>edges that differ</th><th>no area</th></tr></thead><tbody>";
 	std::set<std::string> there;
 	for (const Run& run : data.runs)
 	{
-		const std::string key = fmt::format("{}x{}</td><td>{:g}", run.setting.width, run.setting.height, run.rate_granted);
+		const std::string key =
+			fmt::format("{}x{}</td><td>{:g}</td><td>{}", run.setting.width, run.setting.height, run.rate_granted, escaped(run.setting.metric));
 		if (!run.surface || !there.insert(key).second)
 			continue;
 		const Numerics& n = run.surface->numerics;
@@ -121,7 +123,7 @@ std::string numericsHtml(const ReportData& data)
 							key, n.vertices, n.not_finite, n.worst_base_ulp, n.worst_displaced_ulp, n.worst_share_of_bound, n.shared_edges,
 							n.edge_points, n.differing_edges, n.zero_area_triangles);
 		if (!n.first_problem.empty())
-			html += fmt::format("<tr><td class=\"text wide\" colspan=\"11\">{}</td></tr>", escaped(n.first_problem));
+			html += fmt::format("<tr><td class=\"text wide\" colspan=\"12\">{}</td></tr>", escaped(n.first_problem));
 	}
 	return html + "</tbody></table></div>";
 }

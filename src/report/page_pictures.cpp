@@ -4,6 +4,7 @@
 #include "output/png.h"
 #include "report/heat.h"
 #include "scene/image_decode.h"
+#include "scene/metric.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,13 +76,16 @@ Result<std::string> picturesJson(const std::filesystem::path& folder, const Repo
 {
 	nlohmann::json json = nlohmann::json::array();
 	const bool many_sizes = bySize(data.runs).size() > 1;
-	const auto nameFor = [&](double rate, uint32_t width, uint32_t height) {
-		return many_sizes ? fmt::format("rate {:g}, {}x{}", rate, width, height) : fmt::format("rate {:g}", rate);
+	const bool many_metrics =
+		std::any_of(data.runs.begin(), data.runs.end(), [&](const Run& run) { return run.setting.metric != data.runs[0].setting.metric; });
+	const auto nameFor = [&](double rate, const Setting& setting) {
+		return fmt::format("rate {:g}{}{}", rate, many_metrics ? ", " + setting.metric : "",
+						   many_sizes ? fmt::format(", {}x{}", setting.width, setting.height) : "");
 	};
 	std::set<std::string> there;
 	for (const Run& run : data.runs)
 	{
-		const std::string name = nameFor(run.setting.rate, run.setting.width, run.setting.height);
+		const std::string name = nameFor(run.setting.rate, run.setting);
 		if (run.picture.empty() || !there.insert(name).second)
 			continue;
 		TRY_ASSIGN(const std::string src, pictureUri(folder / run.picture));
@@ -94,7 +98,10 @@ Result<std::string> picturesJson(const std::filesystem::path& folder, const Repo
 	}
 	for (const Run& run : data.runs)
 	{
-		const std::string name = nameFor(run.reference.rate_granted, run.setting.width, run.setting.height) + " (reference)";
+		// Always drawn by the metric edge.
+		Setting setting = run.setting;
+		setting.metric = metricName(Metric::Edge);
+		const std::string name = nameFor(run.reference.rate_granted, setting) + " (reference)";
 		if (!run.image || !there.insert(name).second)
 			continue;
 		TRY_ASSIGN(const std::string src, pictureUri(folder / run.reference.picture));

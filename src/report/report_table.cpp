@@ -128,7 +128,7 @@ const Column kColumns[] = {
 	{ "rate", "rate", "tessellation rate, pixels per segment; an arrow: coarsened because a list was full", OF_RUN(exact(r.setting.rate)),
 	  shownRate },
 	{ "raster", "raster", "who finds visibility", OF_RUN(r.setting.raster) },
-	{ "metric", "", "", OF_RUN(r.setting.metric) },
+	{ "metric", "metric", "what decides the segments of an edge", OF_RUN(r.setting.metric) },
 	{ "rate_granted", "", "", number<OF_RUN(r.rate_granted)> },
 	{ "gpu_ms_median", "ms", "GPU time per frame, median", number<OF_RUN(r.gpu_ms.median)>, shortNumber<OF_RUN(r.gpu_ms.median)> },
 	{ "gpu_ms_min", "least", "least GPU time of a frame, ms", number<OF_RUN(r.gpu_ms.min)>, shortNumber<OF_RUN(r.gpu_ms.min)> },
