@@ -4,6 +4,7 @@
 #include "app/scene_load.h"
 #include "base/file.h"
 #include "frame/renderer.h"
+#include "frame/settle.h"
 #include "pipeline/passes.h"
 
 #include <chrono>
@@ -142,12 +143,17 @@ private:
 		return loaded_->scene;
 	}
 
-	// Warms up, then draws frames until there are enough or the row's time is over; at least one.
+	// Warms up until the device has settled, then draws frames until there are enough or the row's time is over; at least one.
 	Status drawFrames(Renderer& renderer, const Camera& camera, Row& row) const
 	{
 		constexpr double kWarmupShare = 0.25;
 		const auto start = Clock::now();
-		for (uint32_t i = 0; i < row.what.options.warmup && secondsSince(start) < settings_.row_seconds * kWarmupShare; ++i)
+		const auto isWarm = [&](uint32_t frames) {
+			const double seconds = secondsSince(start);
+			return seconds >= settings_.row_seconds * kWarmupShare ||
+				   (frames >= row.what.options.warmup && seconds >= settleSeconds(renderer.planInput().device));
+		};
+		for (uint32_t i = 0; !isWarm(i); ++i)
 			TRY(renderer.renderFrame(camera));
 		for (uint32_t i = 0; i < row.what.options.frames && (i == 0 || secondsSince(start) < settings_.row_seconds); ++i)
 		{

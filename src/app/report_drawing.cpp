@@ -1,5 +1,7 @@
 #include "app/report_drawing.h"
 
+#include "frame/settle.h"
+
 #include <algorithm>
 #include <chrono>
 
@@ -89,8 +91,17 @@ private:
 			return std::chrono::duration<double>(Clock::now() - start).count() * double(cameras_.size()) / kRunSeconds;
 		};
 		progress_.begin(fmt::format("drawing {}", run_.setting.label()), warmup_ + frames_);
-		for (uint32_t i = 0; i < warmup_ && (i == 0 || share() < 0.25); ++i, ++run_.warmup, progress_.advance())
+		const auto isWarm = [&](uint32_t frames) {
+			const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+			const bool settled = frames >= warmup_ && seconds >= settleSeconds(renderer_.planInput().device);
+			return settled || (frames > 0 && share() >= 0.25);
+		};
+		for (uint32_t i = 0; !isWarm(i); ++i, ++run_.warmup)
+		{
 			TRY(renderer_.renderFrame(camera));
+			if (i < warmup_)
+				progress_.advance();
+		}
 		FrameResult last;
 		for (uint32_t i = 0; i < frames_ && (i < std::min(frames_, kLeastFrames) || share() < 1); ++i, ++run_.frames, progress_.advance())
 		{
