@@ -29,9 +29,11 @@ TEST(verifySlow, noBackgroundShinesThroughAClosedMeshFromAThousandPlaces)
 // Every path, culling on and off, against the double-precision picture and each other: from within the mesh, near it, far off.
 TEST(verifySlow, everyPathSeesTheSameFromFiftyCamerasOfEveryScene)
 {
-	const std::string scenes = fmt::format("'{}/bench/scenes/", TESSERA_SOURCE_ROOT);
-	for (const std::string& scene : { std::string("builtin:planet"), std::string("builtin:terrain"), std::string("builtin:bricks"),
-									  std::string("builtin:cube"), scenes + "sphere.gltf'", scenes + "terrain.gltf'" })
+	const std::string bench = fmt::format("'{}/bench/scenes/", TESSERA_SOURCE_ROOT);
+	std::vector<std::string> scenes = { bench + "sphere.gltf'", bench + "terrain.gltf'" };
+	for (const char* name : { "planet", "showcase:60", "terrain", "bricks", "instances:60", "quad", "cube", "materials" })
+		scenes.push_back(fmt::format("builtin:{}", name));
+	for (const std::string& scene : scenes)
 		expectHolds(scene + " --size 128x72 --rate 4 --cameras 50");
 }
 
