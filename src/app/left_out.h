@@ -8,10 +8,10 @@
 namespace tessera
 {
 
-// Plans and measures at the report's first rate, metric, size and raster path that is open, from its first camera: every group of things that one condition
-// keeps is forced on (plan/forced.h), in turn with frames in which nothing is, so that a device's changing clock meets all alike. The runs go to
-// `log`; those that are there are not done again. With --measure-left-out off nothing is drawn.
-// Errors: those of planning, of drawing without anything forced, and of files.
+// Plans and measures at the report's first rate, metric, size and raster path that is open, from its first camera: every group of things that one
+// condition keeps is forced on (plan/forced.h), in turn with frames in which nothing is, so that a device's changing clock meets all alike. The runs
+// go to `log`; those that are there are not done again. With --measure-left-out off nothing is drawn. Errors: those of planning, of drawing without
+// anything forced, and of files.
 Status addLeftOut(const SweepSubject& subject, report::RunLog& log, report::ReportData& data);
 
 }  // namespace tessera
