@@ -80,9 +80,9 @@ bool pieceIsHidden(vec3 p, vec3 q, vec3 r, DisplacedBounds bounds, InstanceRecor
 	vec3 middle = inView(reach.centre, view);
 	// The slack is along an axis of the world: along one of the view it is up to root 3 times that.
 	vec3 extent = reachInView(reach.axis0, reach.axis1, reach.axis2, view) + reach.slack * 1.75;
-	vec3 low = min(a, min(b, c)) + middle - extent, high = max(a, max(b, c)) + middle + extent;
-	vec3 rounding = max(abs(low), abs(high)) * 1e-5;
-	return boxIsHidden(low - rounding, high + rounding, view, pyramid);
+	// Of what is added up, not of the sum: displacement may bring near what lies far.
+	extent += (max(abs(a), max(abs(b), abs(c))) + abs(middle) + extent) * 1e-5;
+	return boxIsHidden(min(a, min(b, c)) + middle - extent, max(a, max(b, c)) + middle + extent, view, pyramid);
 }
 
 bool wasHidden(DisplacedBounds bounds, InstanceRecord instance)
