@@ -180,7 +180,7 @@ uint64_t bytesOfLists(const std::array<uint32_t, LIST_COUNT>& capacities, const 
 	if (tessellates)
 		bytes += kMostRateSteps * sizeof(RateStep) + uint64_t(capacities[LIST_PART_TRIANGLES]) * sizeof(PartPlace) + 16 +
 				 (uint64_t(capacities[LIST_PART_TRIANGLES]) / BATCH_WINDOW + 1) * sizeof(uint32_t) + 16;
-	if (tessellates && usesSoft(input) && input.device.most_small_rate_px > 0)
+	if (tessellates && usesSoft(input) && (input.device.most_small_rate_px > 0 || input.forces(kSmallFirst)))
 		bytes += (uint64_t(capacities[LIST_BATCHES]) + capacities[LIST_FULL_CLUSTERS]) * sizeof(uint32_t) + 16;
 	return bytes;
 }
