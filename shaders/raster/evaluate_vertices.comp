@@ -2,7 +2,7 @@
 //
 //   in   full_clusters, batches
 //   out  micro_vertices       vec4[]   clip coordinates, or places relative to the eye where rays are traced; a batch's or cluster's range was
-//                                      taken when it was listed. Behind the last one that the list can hold lies one more, for triangles that are not there
+//                                      taken when it was listed. Behind the last one that the list can hold lies one more, for triangles that are not there in a frame without any
 //   out  expanded_triangles   uint[]   only when drawn indexed or traced: three indices per triangle for the whole list, then one
 //                                      payload per triangle; ranges are taken by atomics, so their order is free, unless
 //                                      every cluster keeps its place (KEEPS_PLACES). A build takes its count
@@ -81,13 +81,13 @@ void evaluateItem(WorkItem item)
 	barrier();
 }
 
-// Triangles [first, args.traced_triangles) get the same vertex three times: no ray meets them. It lies at the eye, where boxes of nothing else
-// are met less than the near distance away.
-void deactivateTriangles(uint first)
+// Triangles [first, args.traced_triangles) get the same vertex three times: no ray meets them. It is the frame's first vertex, so that only rays to
+// that very place meet their boxes (at the eye every ray would), or, where there is none, one behind the eye.
+void deactivateTriangles(uint first, bool has_vertices)
 {
-	uint nowhere = args.heads.at[LIST_MICRO_VERTICES].capacity;
-	if (gl_GlobalInvocationID.x == 0u)
-		args.vertices.at[nowhere] = vec4(0.0, 0.0, 0.0, 1.0);
+	uint nowhere = has_vertices ? 0u : args.heads.at[LIST_MICRO_VERTICES].capacity;
+	if (!has_vertices && gl_GlobalInvocationID.x == 0u)
+		args.vertices.at[nowhere] = vec4(frame_view.draw_eye - frame_view.forward, 1.0);
 	uint stride = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
 	for (uint i = 3u * first + gl_GlobalInvocationID.x; i < 3u * args.traced_triangles; i += stride)
 		args.indices.at[i] = nowhere;
@@ -96,12 +96,12 @@ void deactivateTriangles(uint first)
 void main()
 {
 	bool overflow = args.counts.at[0].overflow != 0u;
-	if (HAS_RAYS)
-		deactivateTriangles(overflow ? 0u : args.heads.at[LIST_EXPANDED_TRIANGLES].wanted);
-	if (overflow)
-		return;
 	uint cluster_count = args.heads.at[LIST_FULL_CLUSTERS].wanted;
 	uint item_count = cluster_count + (HAS_TESSELLATION ? args.heads.at[LIST_BATCHES].wanted : 0u);
+	if (HAS_RAYS)
+		deactivateTriangles(overflow ? 0u : args.heads.at[LIST_EXPANDED_TRIANGLES].wanted, !overflow && item_count > 0u);
+	if (overflow)
+		return;
 	for (uint index = gl_WorkGroupID.x; index < item_count; index += gl_NumWorkGroups.x)
 		evaluateItem(workItem(args.inputs, args.full_clusters, args.batches, index, cluster_count));
 }
