@@ -11,6 +11,7 @@ layout(constant_id = 5) const bool HAS_VERTEX_COLORS = true;
 layout(constant_id = 6) const bool HAS_SMOOTH_NORMALS = true;
 layout(constant_id = 7) const bool HAS_CULLING = true;
 layout(constant_id = 8) const bool HAS_MIXED_SIDES = true;
+layout(constant_id = 42) const bool SIDES_IN_FRAGMENTS = false;
 layout(constant_id = 9) const bool HAS_MIRRORED_INSTANCES = true;
 layout(constant_id = 10) const bool HAS_SINGLE_SIDED = true;
 layout(constant_id = 11) const bool IS_SHADED_VIEW = true;

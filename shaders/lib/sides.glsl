@@ -1,4 +1,5 @@
-// Back faces of single-sided materials are never shown. Where all materials agree, fixed-function culling does it.
+// Back faces of single-sided materials are never shown. Where all materials agree, fixed-function culling does it, but where that is not by the
+// rounded corners that pixels are covered by (SIDES_IN_FRAGMENTS).
 #ifndef TESSERA_LIB_SIDES
 #define TESSERA_LIB_SIDES
 #include "shared/raster_inputs.h"
@@ -15,6 +16,14 @@ bool isSingleSided(RasterInputs inputs, uint payload)
 {
 	ClusterRef ref = inputs.visible_clusters.at[payloadCluster(inputs, payload)];
 	return (inputs.material_flags.at[inputs.clusters.at[ref.cluster].material] & MATERIAL_DOUBLE_SIDED) == 0u;
+}
+
+// For fragments: true when this side of the triangle is not shown.
+bool isHiddenSide(RasterInputs inputs, uint payload, bool front)
+{
+	if (front || !(HAS_MIXED_SIDES || SIDES_IN_FRAGMENTS))
+		return false;
+	return !HAS_MIXED_SIDES || isSingleSided(inputs, payload);
 }
 
 #endif

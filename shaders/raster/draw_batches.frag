@@ -13,7 +13,7 @@ layout(location = 0) out uint visible;
 
 void main()
 {
-	if (HAS_MIXED_SIDES && !gl_FrontFacing && isSingleSided(args.inputs, payload))
+	if (isHiddenSide(args.inputs, payload, gl_FrontFacing))
 		discard;
 	visible = payload;
 }

@@ -12,7 +12,7 @@ layout(location = 0) out uint visible;
 void main()
 {
 	uint payload = args.expanded_triangles.at[args.first_payload + gl_PrimitiveID];
-	if (HAS_MIXED_SIDES && !gl_FrontFacing && isSingleSided(args.inputs, payload))
+	if (isHiddenSide(args.inputs, payload, gl_FrontFacing))
 		discard;
 	visible = payload;
 }

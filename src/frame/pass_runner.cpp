@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "gpu/spirv_constants.h"
+#include "plan/conditions.h"
 
 #include <algorithm>
 #include <utility>
@@ -128,9 +129,9 @@ bool findsVisibility(const PassDesc& pass)
 	});
 }
 
-VkCullModeFlags cullMode(const SceneTraits& scene)
+VkCullModeFlags cullMode(const PlanInput& input)
 {
-	return scene.has_double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
+	return input.scene.has_double_sided || kSidesInFragments.holds(input) ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
 }
 
 }  // namespace
@@ -208,7 +209,7 @@ Status PassRunner::makePipeline(const PassDesc& pass, const PipelineKey& key, co
 		return {};
 	}
 	DrawState state;
-	state.cull = cullMode(input.scene);
+	state.cull = cullMode(input);
 	TRY_ASSIGN(Pipeline made, makeDrawPipeline(device_, layout, shaders, key.second, state));
 	pipelines_[key] = std::move(made);
 	return {};

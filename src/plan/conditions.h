@@ -172,6 +172,12 @@ inline constexpr Condition kBuffered = { [](const PlanInput& input) { return !kD
 										 kIsAnAlternative };
 inline constexpr Condition kMixedSides = { [](const PlanInput& input) { return input.scene.has_single_sided && input.scene.has_double_sided; },
 										   "all materials show the same sides", always };
+// Drivers on a processor cull mesh shaders' triangles by corners that are not rounded yet, and cover pixels by corners that are: what is thinner than
+// the rounding, as slivers along a silhouette are, then turns to the eye and is not drawn, and the background shows. Fragments know the rounded side.
+inline constexpr Condition kSidesInFragments = {
+	[](const PlanInput& input) { return kMesh.holds(input) && input.device.is_cpu && input.scene.has_single_sided && !input.scene.has_double_sided; },
+	"fixed-function culling leaves out back faces, or materials differ in the sides that they show, or both sides show", nullptr, kIsAnAlternative
+};
 // Rays.
 inline constexpr Condition kRays = { [](const PlanInput& input) { return tracesRays(input) && input.device.rays; },
 									 "no rays are traced, or the device lacks acceleration structures or ray tracing pipelines", nullptr,

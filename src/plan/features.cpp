@@ -23,6 +23,7 @@ std::vector<Feature> shaderFeatures(const PlanInput& input)
 		{ "HAS_SMOOTH_NORMALS", 6, &kNormals },
 		{ "HAS_CULLING", 7, &kCulls },
 		{ "HAS_MIXED_SIDES", 8, &kMixedSides },
+		{ "SIDES_IN_FRAGMENTS", 42, &kSidesInFragments },
 		{ "HAS_MIRRORED_INSTANCES", 9, &kMirroredInstances },
 		{ "HAS_SINGLE_SIDED", 10, &kSingleSided },
 		{ "IS_SHADED_VIEW", 11, &kShadedView },

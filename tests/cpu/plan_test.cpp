@@ -172,6 +172,21 @@ TEST(framePlan, aSceneThatNeedsEverythingGetsIt)
 		EXPECT_EQ(feature.on, feature.reason.empty()) << feature.name;
 }
 
+// Cutting off back faces before corners are rounded opens holes between slivers (conditions.h).
+TEST(framePlan, fragmentsTellSidesWhereMeshShadersRunOnAProcessor)
+{
+	PlanInput input = fullInput();
+	input.options.raster = Raster::Mesh;
+	input.scene.has_double_sided = false;
+	input.device.is_cpu = true;
+	EXPECT_TRUE(featureOn(planOf(input), "SIDES_IN_FRAGMENTS"));
+	input.scene.has_double_sided = true;
+	EXPECT_FALSE(featureOn(planOf(input), "SIDES_IN_FRAGMENTS")) << "materials tell them anyway";
+	input.scene.has_double_sided = false;
+	input.device.is_cpu = false;
+	EXPECT_FALSE(featureOn(planOf(input), "SIDES_IN_FRAGMENTS"));
+}
+
 // Everything that is left out is either kept when it is forced, and said to be, or cannot be and why is said.
 TEST(framePlan, whateverIsLeftOutIsForcedOrSaidWhyNot)
 {

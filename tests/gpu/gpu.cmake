@@ -45,6 +45,9 @@ foreach(family IN ITEMS scale geometry displacement views counts animation)
   add_test(NAME verifySuite.quick_${family} COMMAND tessera verify --suite extreme-quick:${family} --quiet)
   set_tests_properties(verifySuite.quick_${family} PROPERTIES LABELS gpu SKIP_RETURN_CODE 4 TIMEOUT 900)
 endforeach()
+# Slivers along a silhouette, which drivers may cull before they round corners.
+add_test(NAME verifySuite.quick_hub_by_mesh_shaders COMMAND tessera verify --suite extreme-quick:hub_10000 --raster mesh --quiet)
+set_tests_properties(verifySuite.quick_hub_by_mesh_shaders PROPERTIES LABELS gpu SKIP_RETURN_CODE 4 TIMEOUT 900)
 add_test(NAME verifySuite.extreme COMMAND tessera verify --suite extreme --quiet)
 set_tests_properties(verifySuite.extreme PROPERTIES LABELS slow SKIP_RETURN_CODE 4 TIMEOUT 7200)
 
