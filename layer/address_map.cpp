@@ -77,8 +77,7 @@ std::optional<Place> AddressMap::find(VkDeviceAddress address, VkDeviceSize size
 	return best;
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL createBuffer(VkDevice handle, const VkBufferCreateInfo* info, const VkAllocationCallbacks* allocator,
-											VkBuffer* buffer)
+VKAPI_ATTR VkResult VKAPI_CALL createBuffer(VkDevice handle, const VkBufferCreateInfo* info, const VkAllocationCallbacks* allocator, VkBuffer* buffer)
 {
 	Device& device = deviceOf(handle);
 	if (!device.active)

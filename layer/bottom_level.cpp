@@ -125,11 +125,11 @@ VkGeometryFlagsKHR geometryFlags(uint32_t packed)
 // One geometry of a cluster: its triangles with these flags; the others keep their numbers but have no area.
 void addGeometry(const Cluster& cluster, uint32_t flags, Build& build, Geometry& all)
 {
-	const auto first_vertex = static_cast<uint32_t>(all.vertices.size() - cluster.vertices.size());
 	VkAccelerationStructureBuildRangeInfoKHR range = {};
 	range.primitiveCount = cluster.triangle_count;
-	range.primitiveOffset = static_cast<uint32_t>(all.indices.size() * sizeof(uint32_t));
-	range.firstVertex = first_vertex;
+	// Offsets for now: the buffer's address is added when there is a buffer.
+	const VkDeviceSize first_vertex = (all.vertices.size() - cluster.vertices.size()) * sizeof(Vertex);
+	const VkDeviceSize first_index = all.indices.size() * sizeof(uint32_t);
 	for (size_t triangle = 0; triangle < cluster.triangle_count; ++triangle)
 	{
 		const bool drawn = cluster.geometryOf(triangle) >> kGeometryFlagsShift == flags && isActive(cluster, triangle);
@@ -142,6 +142,8 @@ void addGeometry(const Cluster& cluster, uint32_t flags, Build& build, Geometry&
 	auto& triangles = geometry.geometry.triangles;
 	triangles = { VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_TRIANGLES_DATA_KHR };
 	triangles.vertexFormat = VK_FORMAT_R32G32B32_SFLOAT;
+	triangles.vertexData.deviceAddress = first_vertex;
+	triangles.indexData.deviceAddress = first_index;
 	triangles.vertexStride = sizeof(Vertex);
 	triangles.maxVertex = static_cast<uint32_t>(cluster.vertices.empty() ? 0 : cluster.vertices.size() - 1);
 	triangles.indexType = VK_INDEX_TYPE_UINT32;
@@ -224,8 +226,8 @@ std::pair<VkDeviceSize, VkDeviceSize> layOut(const Operation& operation, std::sp
 	for (Build& build : builds)
 	{
 		const auto info = infoOf(operation, build);
-		operation.device().next.GetAccelerationStructureBuildSizesKHR(
-			operation.device().handle, VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info, build.triangle_counts.data(), &build.sizes);
+		operation.device().next.GetAccelerationStructureBuildSizesKHR(operation.device().handle, VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR,
+																	  &info, build.triangle_counts.data(), &build.sizes);
 		build.storage_offset = storage;
 		build.scratch_offset = scratch;
 		storage += alignUp(build.sizes.accelerationStructureSize, kStorageAlignment);
@@ -274,8 +276,8 @@ VkResult runBuilds(const Operation& operation, std::span<Build> builds, const Ge
 			return VK_ERROR_OUT_OF_DEVICE_MEMORY;
 		for (auto& geometry : build.geometries)
 		{
-			geometry.geometry.triangles.vertexData.deviceAddress = input->address();
-			geometry.geometry.triangles.indexData.deviceAddress = input->address() + vertex_bytes;
+			geometry.geometry.triangles.vertexData.deviceAddress += input->address();
+			geometry.geometry.triangles.indexData.deviceAddress += input->address() + vertex_bytes;
 		}
 		infos.push_back(infoOf(operation, build));
 		infos.back().dstAccelerationStructure = build.made.handle;

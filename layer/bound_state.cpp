@@ -9,9 +9,7 @@ void BoundState::bindDescriptorSets(VkPipelineBindPoint point, VkPipelineLayout 
 									uint32_t offset_count, const uint32_t* offsets)
 {
 	// A call that binds at least as much replaces an earlier one, unless dynamic offsets make their split between sets unknown.
-	std::erase_if(sets_, [&](const Sets& old) {
-		return old.point == point && old.first >= first && old.first + old.sets.size() <= first + count;
-	});
+	std::erase_if(sets_, [&](const Sets& old) { return old.point == point && old.first >= first && old.first + old.sets.size() <= first + count; });
 	sets_.push_back({ point, layout, first, { sets, sets + count }, { offsets, offsets + offset_count } });
 }
 

@@ -55,8 +55,8 @@ private:
 	};
 
 	std::map<VkPipelineBindPoint, VkPipeline> pipelines_;
-	std::vector<Sets> sets_;      // in the order of the calls: a later one may disturb what an earlier one bound
-	std::vector<Push> pushes_;    // likewise
+	std::vector<Sets> sets_;    // in the order of the calls: a later one may disturb what an earlier one bound
+	std::vector<Push> pushes_;  // likewise
 	std::map<uint32_t, VkViewport> viewports_;
 	std::map<uint32_t, VkRect2D> scissors_;
 	std::map<uint32_t, VertexBuffer> vertex_buffers_;

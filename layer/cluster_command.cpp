@@ -29,7 +29,8 @@ VkResult resolveAddresses(Operation& operation)
 		if (flags >> bit & 1u)
 		{
 			checkAlignment(operation, "resolution", *addresses[bit], 8, fmt::format("the address that flag {:#x} resolves", 1u << bit));
-			const auto place = placeOf(operation, "resolution", *addresses[bit], 8, 0, fmt::format("the address that flag {:#x} resolves", 1u << bit));
+			const auto place =
+				placeOf(operation, "resolution", *addresses[bit], 8, 0, fmt::format("the address that flag {:#x} resolves", 1u << bit));
 			if (place)
 				found.emplace_back(addresses[bit], reads.add(*place, 8));
 			else
@@ -61,8 +62,8 @@ VkResult readCount(Operation& operation)
 		return result;
 	const auto count = reads.as<uint32_t>(0);
 	if (count > most)
-		operation.report().violation("src-count-above-max", "{}: srcInfosCount holds {}, maxAccelerationStructureCount is {}", operation.name(), count,
-									 most);
+		operation.report().violation("src-count-above-max", "{}: srcInfosCount holds {}, maxAccelerationStructureCount is {}", operation.name(),
+									 count, most);
 	operation.count = std::min(count, most);
 	return VK_SUCCESS;
 }

@@ -179,8 +179,7 @@ VkResult placeProducts(const Operation& operation, std::span<Product> products)
 	return operation.context.write(writes);
 }
 
-VkResult writeRecords(const Operation& operation, std::span<const std::pair<VkDeviceAddress, std::vector<std::byte>>> records,
-					  bool structures_placed)
+VkResult writeRecords(const Operation& operation, std::span<const std::pair<VkDeviceAddress, std::vector<std::byte>>> records, bool structures_placed)
 {
 	Writes writes;
 	uint64_t bytes = 0;

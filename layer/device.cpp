@@ -18,7 +18,10 @@ std::shared_mutex objects_lock;
 std::unordered_map<const void*, std::unique_ptr<Instance>> instances;
 std::unordered_map<const void*, std::unique_ptr<Device>> devices;
 
-const void* keyOf(const void* dispatchable) { return *static_cast<const void* const*>(dispatchable); }
+const void* keyOf(const void* dispatchable)
+{
+	return *static_cast<const void* const*>(dispatchable);
+}
 
 // A loader's structure of a create info's chain.
 template <typename Link, typename Info>
@@ -53,8 +56,7 @@ std::unique_ptr<Device> makeDevice(VkDevice handle, VkPhysicalDevice physical, I
 	const auto* features = findInChain<const VkPhysicalDeviceClusterAccelerationStructureFeaturesNV>(
 		info.pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CLUSTER_ACCELERATION_STRUCTURE_FEATURES_NV);
 	device->feature_on = features && features->clusterAccelerationStructure;
-	if (const auto* callback =
-			linkOf<VkLayerDeviceCreateInfo>(&info, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO, VK_LOADER_DATA_CALLBACK))
+	if (const auto* callback = linkOf<VkLayerDeviceCreateInfo>(&info, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO, VK_LOADER_DATA_CALLBACK))
 		device->set_loader_data = callback->u.pfnSetDeviceLoaderData;
 	return device;
 }

@@ -9,7 +9,10 @@ namespace tessera::layer
 namespace
 {
 
-constexpr bool startsWith(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
+constexpr bool startsWith(std::string_view text, std::string_view start)
+{
+	return text.substr(0, start.size()) == start;
+}
 
 constexpr bool isOneOf(Command command, std::initializer_list<Command> list)
 {
@@ -37,14 +40,32 @@ constexpr bool closes(Command command)
 // Set state by pointers that BoundState does not copy.
 constexpr bool isUnkept(Command command)
 {
-	return isOneOf(command,
-				   { Command::PushDescriptorSet, Command::PushDescriptorSetKHR, Command::PushDescriptorSet2, Command::PushDescriptorSet2KHR,
-					 Command::PushDescriptorSetWithTemplate, Command::PushDescriptorSetWithTemplateKHR, Command::PushDescriptorSetWithTemplate2,
-					 Command::PushDescriptorSetWithTemplate2KHR, Command::BindDescriptorSets2, Command::BindDescriptorSets2KHR, Command::PushConstants2,
-					 Command::PushConstants2KHR, Command::BindDescriptorBuffersEXT, Command::BindShadersEXT, Command::BindIndexBuffer2,
-					 Command::BindIndexBuffer2KHR, Command::BindVertexBuffers2, Command::BindVertexBuffers2EXT, Command::SetViewportWithCount,
-					 Command::SetViewportWithCountEXT, Command::SetScissorWithCount, Command::SetScissorWithCountEXT, Command::SetVertexInputEXT,
-					 Command::BindTransformFeedbackBuffersEXT, Command::SetSampleLocationsEXT, Command::SetFragmentShadingRateKHR });
+	return isOneOf(command, { Command::PushDescriptorSet,
+							  Command::PushDescriptorSetKHR,
+							  Command::PushDescriptorSet2,
+							  Command::PushDescriptorSet2KHR,
+							  Command::PushDescriptorSetWithTemplate,
+							  Command::PushDescriptorSetWithTemplateKHR,
+							  Command::PushDescriptorSetWithTemplate2,
+							  Command::PushDescriptorSetWithTemplate2KHR,
+							  Command::BindDescriptorSets2,
+							  Command::BindDescriptorSets2KHR,
+							  Command::PushConstants2,
+							  Command::PushConstants2KHR,
+							  Command::BindDescriptorBuffersEXT,
+							  Command::BindShadersEXT,
+							  Command::BindIndexBuffer2,
+							  Command::BindIndexBuffer2KHR,
+							  Command::BindVertexBuffers2,
+							  Command::BindVertexBuffers2EXT,
+							  Command::SetViewportWithCount,
+							  Command::SetViewportWithCountEXT,
+							  Command::SetScissorWithCount,
+							  Command::SetScissorWithCountEXT,
+							  Command::SetVertexInputEXT,
+							  Command::BindTransformFeedbackBuffersEXT,
+							  Command::SetSampleLocationsEXT,
+							  Command::SetFragmentShadingRateKHR });
 }
 
 template <typename... Args>
@@ -77,9 +98,8 @@ void note(Recording& recording, [[maybe_unused]] PFN_vkVoidFunction next, [[mayb
 	else if constexpr (isUnkept(kCommand))
 		recording.state.setUnkept(kCommand);
 	else if constexpr (startsWith(kCommandNames[size_t(kCommand)], "Set") && kCommand != Command::SetDeviceMask && allNumbers<Args...>())
-		recording.state.setNumbers(kCommand, [=](VkCommandBuffer commands) {
-			reinterpret_cast<void(VKAPI_PTR*)(VkCommandBuffer, Args...)>(next)(commands, args...);
-		});
+		recording.state.setNumbers(
+			kCommand, [=](VkCommandBuffer commands) { reinterpret_cast<void(VKAPI_PTR*)(VkCommandBuffer, Args...)>(next)(commands, args...); });
 }
 
 template <Command kCommand, typename Function>

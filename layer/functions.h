@@ -25,61 +25,61 @@ inline constexpr std::array kCommandNames = {
 };
 
 // What the layer itself calls. A function that Vulkan 1.3 took over from KHR is found under either name.
-#define LAYER_DEVICE_FUNCTIONS(X) \
-	X(AllocateCommandBuffers) \
-	X(AllocateMemory) \
-	X(BeginCommandBuffer) \
-	X(BindBufferMemory) \
-	X(BindBufferMemory2) \
-	X(CmdBindDescriptorSets) \
-	X(CmdBindIndexBuffer) \
-	X(CmdBindPipeline) \
-	X(CmdBindVertexBuffers) \
-	X(CmdBuildAccelerationStructuresKHR) \
-	X(CmdCopyAccelerationStructureKHR) \
-	X(CmdCopyBuffer) \
-	X(CmdFillBuffer) \
-	X(CmdPipelineBarrier) \
-	X(CmdPushConstants) \
-	X(CmdSetScissor) \
-	X(CmdSetViewport) \
-	X(CreateAccelerationStructureKHR) \
-	X(CreateBuffer) \
-	X(CreateCommandPool) \
-	X(CreateFence) \
-	X(CreateRayTracingPipelinesKHR) \
-	X(CreateShaderModule) \
-	X(DestroyAccelerationStructureKHR) \
-	X(DestroyBuffer) \
-	X(DestroyCommandPool) \
-	X(DestroyDevice) \
-	X(DestroyFence) \
-	X(DestroyShaderModule) \
-	X(DeviceWaitIdle) \
-	X(EndCommandBuffer) \
-	X(FreeCommandBuffers) \
-	X(FreeMemory) \
-	X(GetAccelerationStructureBuildSizesKHR) \
+#define LAYER_DEVICE_FUNCTIONS(X)               \
+	X(AllocateCommandBuffers)                   \
+	X(AllocateMemory)                           \
+	X(BeginCommandBuffer)                       \
+	X(BindBufferMemory)                         \
+	X(BindBufferMemory2)                        \
+	X(CmdBindDescriptorSets)                    \
+	X(CmdBindIndexBuffer)                       \
+	X(CmdBindPipeline)                          \
+	X(CmdBindVertexBuffers)                     \
+	X(CmdBuildAccelerationStructuresKHR)        \
+	X(CmdCopyAccelerationStructureKHR)          \
+	X(CmdCopyBuffer)                            \
+	X(CmdFillBuffer)                            \
+	X(CmdPipelineBarrier)                       \
+	X(CmdPushConstants)                         \
+	X(CmdSetScissor)                            \
+	X(CmdSetViewport)                           \
+	X(CreateAccelerationStructureKHR)           \
+	X(CreateBuffer)                             \
+	X(CreateCommandPool)                        \
+	X(CreateFence)                              \
+	X(CreateRayTracingPipelinesKHR)             \
+	X(CreateShaderModule)                       \
+	X(DestroyAccelerationStructureKHR)          \
+	X(DestroyBuffer)                            \
+	X(DestroyCommandPool)                       \
+	X(DestroyDevice)                            \
+	X(DestroyFence)                             \
+	X(DestroyShaderModule)                      \
+	X(DeviceWaitIdle)                           \
+	X(EndCommandBuffer)                         \
+	X(FreeCommandBuffers)                       \
+	X(FreeMemory)                               \
+	X(GetAccelerationStructureBuildSizesKHR)    \
 	X(GetAccelerationStructureDeviceAddressKHR) \
-	X(GetBufferDeviceAddress) \
-	X(GetBufferMemoryRequirements) \
-	X(GetDeviceBufferMemoryRequirements) \
-	X(GetDeviceQueue) \
-	X(GetDeviceQueue2) \
-	X(MapMemory) \
-	X(QueueSubmit) \
-	X(QueueSubmit2) \
-	X(ResetCommandBuffer) \
-	X(ResetCommandPool) \
-	X(ResetFences) \
+	X(GetBufferDeviceAddress)                   \
+	X(GetBufferMemoryRequirements)              \
+	X(GetDeviceBufferMemoryRequirements)        \
+	X(GetDeviceQueue)                           \
+	X(GetDeviceQueue2)                          \
+	X(MapMemory)                                \
+	X(QueueSubmit)                              \
+	X(QueueSubmit2)                             \
+	X(ResetCommandBuffer)                       \
+	X(ResetCommandPool)                         \
+	X(ResetFences)                              \
 	X(WaitForFences)
 
-#define LAYER_INSTANCE_FUNCTIONS(X) \
-	X(DestroyInstance) \
+#define LAYER_INSTANCE_FUNCTIONS(X)       \
+	X(DestroyInstance)                    \
 	X(EnumerateDeviceExtensionProperties) \
-	X(GetPhysicalDeviceFeatures2) \
-	X(GetPhysicalDeviceFormatProperties) \
-	X(GetPhysicalDeviceMemoryProperties) \
+	X(GetPhysicalDeviceFeatures2)         \
+	X(GetPhysicalDeviceFormatProperties)  \
+	X(GetPhysicalDeviceMemoryProperties)  \
 	X(GetPhysicalDeviceProperties2)
 
 struct DeviceFunctions

@@ -226,8 +226,7 @@ VkResult instantiateClusters(const Operation& operation)
 	std::vector<std::pair<VkDeviceAddress, std::vector<std::byte>>> records;
 	for (size_t i = 0; i < products.size(); ++i)
 		if (products[i].address && products[i].bytes)
-			records.emplace_back(products[i].address,
-								 encode(RecordKind::Cluster, makeCluster(operation, reads, requests[i]), products[i].address));
+			records.emplace_back(products[i].address, encode(RecordKind::Cluster, makeCluster(operation, reads, requests[i]), products[i].address));
 	return writeRecords(operation, records);
 }
 

@@ -59,12 +59,14 @@ uint32_t DeviceTable::take(uint32_t count)
 	return first;
 }
 
-void DeviceTable::set(uint32_t index, const void* record) { std::memcpy(buffers_.back()->data() + index * stride_, record, stride_); }
+void DeviceTable::set(uint32_t index, const void* record)
+{
+	std::memcpy(buffers_.back()->data() + index * stride_, record, stride_);
+}
 
 LookupTable::LookupTable(Device& device)
 	: root_(OwnBuffer::make(device, 64, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true)),
-	  slots(device, sizeof(Slot), root_ ? root_->data() : nowhere_.data()),
-	  rows(device, sizeof(Row), root_ ? root_->data() + 8 : nowhere_.data()),
+	  slots(device, sizeof(Slot), root_ ? root_->data() : nowhere_.data()), rows(device, sizeof(Row), root_ ? root_->data() + 8 : nowhere_.data()),
 	  geometry_indices(device, sizeof(uint32_t), root_ ? root_->data() + 16 : nowhere_.data())
 {
 	// What a structure without clusters finds.

@@ -91,7 +91,10 @@ VKAPI_ATTR VkResult VKAPI_CALL enumerateDeviceExtensionProperties(VkPhysicalDevi
 VKAPI_ATTR void VKAPI_CALL getPhysicalDeviceFeatures2(VkPhysicalDevice physical, VkPhysicalDeviceFeatures2* features)
 {
 	const Instance& instance = instanceOf(physical);
-	instance.next.GetPhysicalDeviceFeatures2(physical, features);
+	{
+		const TakenOut ours(features, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CLUSTER_ACCELERATION_STRUCTURE_FEATURES_NV);
+		instance.next.GetPhysicalDeviceFeatures2(physical, features);
+	}
 	if (auto* ours = findInChain<VkPhysicalDeviceClusterAccelerationStructureFeaturesNV>(
 			features->pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CLUSTER_ACCELERATION_STRUCTURE_FEATURES_NV))
 		ours->clusterAccelerationStructure = canEmulate(instance, physical);
@@ -99,7 +102,10 @@ VKAPI_ATTR void VKAPI_CALL getPhysicalDeviceFeatures2(VkPhysicalDevice physical,
 
 VKAPI_ATTR void VKAPI_CALL getPhysicalDeviceProperties2(VkPhysicalDevice physical, VkPhysicalDeviceProperties2* properties)
 {
-	instanceOf(physical).next.GetPhysicalDeviceProperties2(physical, properties);
+	{
+		const TakenOut ours(properties, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CLUSTER_ACCELERATION_STRUCTURE_PROPERTIES_NV);
+		instanceOf(physical).next.GetPhysicalDeviceProperties2(physical, properties);
+	}
 	if (auto* ours = findInChain<VkPhysicalDeviceClusterAccelerationStructurePropertiesNV>(
 			properties->pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CLUSTER_ACCELERATION_STRUCTURE_PROPERTIES_NV))
 	{

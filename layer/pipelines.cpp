@@ -42,8 +42,9 @@ VKAPI_ATTR VkResult VKAPI_CALL createShaderModule(VkDevice handle, const VkShade
 	for (const std::string& problem : rewritten.problems)
 		device.report.limit("limit-shader", "vkCreateShaderModule: {}", problem);
 	if (rewritten.reads_cluster_id && !rewritten.says_so)
-		device.report.violation("shader-capability",
-								"vkCreateShaderModule: a shader reads gl_ClusterIDNV without the capability RayTracingClusterAccelerationStructureNV");
+		device.report.violation(
+			"shader-capability",
+			"vkCreateShaderModule: a shader reads gl_ClusterIDNV without the capability RayTracingClusterAccelerationStructureNV");
 	VkShaderModuleCreateInfo changed = *info;
 	if (!rewritten.words.empty())
 	{

@@ -59,7 +59,10 @@ uint64_t templateBytes(uint64_t triangles, uint64_t vertices, bool geometry_per_
 	return clusterBytes(triangles, vertices, geometry_per_triangle) + 6 * sizeof(float);
 }
 
-uint64_t bottomLevelBytes(uint64_t clusters) { return sizeof(RecordHead) + sizeof(VkDeviceAddress) * clusters; }
+uint64_t bottomLevelBytes(uint64_t clusters)
+{
+	return sizeof(RecordHead) + sizeof(VkDeviceAddress) * clusters;
+}
 
 uint64_t bytesOf(RecordKind kind, const Cluster& cluster)
 {
@@ -79,8 +82,8 @@ std::vector<std::byte> encode(RecordKind kind, const Cluster& cluster, VkDeviceA
 	head.vertex_count = cluster.vertex_count;
 	head.vertex_format = cluster.vertex_format;
 	head.truncate_bits = cluster.truncate_bits;
-	head.parts = (cluster.vertices.empty() ? 0 : kHasVertices) | (cluster.bounds ? kHasBounds : 0) |
-				 (cluster.geometry.size() > 1 ? kGeometryPerTriangle : 0);
+	head.parts =
+		(cluster.vertices.empty() ? 0 : kHasVertices) | (cluster.bounds ? kHasBounds : 0) | (cluster.geometry.size() > 1 ? kGeometryPerTriangle : 0);
 	std::vector<std::byte> bytes(sizeof(head));
 	if (cluster.bounds)
 		append(bytes, cluster.bounds->data(), 6);

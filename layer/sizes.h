@@ -32,7 +32,10 @@ struct VertexLayout
 };
 std::optional<VertexLayout> vertexLayout(VkFormat format);
 
-inline VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment) { return (value + alignment - 1) / alignment * alignment; }
+inline VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment)
+{
+	return (value + alignment - 1) / alignment * alignment;
+}
 
 // Names what is wrong with an input by itself. `where`: the command.
 void checkInput(Device& device, const ClusterInput& input, const char* where);

@@ -56,9 +56,9 @@ private:
 	Module& module_;
 	VkDeviceAddress root_;
 	Rewritten result_;
-	std::map<uint32_t, uint32_t> pointees_;       // pointer type to what it points to
-	std::map<uint32_t, Variable> by_builtin_;     // builtin to its input variable
-	std::map<uint32_t, uint32_t> builtin_of_;     // variable to builtin
+	std::map<uint32_t, uint32_t> pointees_;    // pointer type to what it points to
+	std::map<uint32_t, Variable> by_builtin_;  // builtin to its input variable
+	std::map<uint32_t, uint32_t> builtin_of_;  // variable to builtin
 	std::map<Wanted, uint32_t> functions_;
 	std::vector<Instruction> types_, decorations_, bodies_;
 	std::vector<uint32_t> new_inputs_;
@@ -138,7 +138,10 @@ uint32_t Rewrite::type(Op op, std::vector<uint32_t> operands)
 	return add(types_, op, {}, std::move(operands));
 }
 
-uint32_t Rewrite::constant(uint32_t value) { return add(types_, OpConstant, { uint_ }, { value }); }
+uint32_t Rewrite::constant(uint32_t value)
+{
+	return add(types_, OpConstant, { uint_ }, { value });
+}
 
 void Rewrite::declareTables()
 {
@@ -192,7 +195,10 @@ uint32_t Rewrite::input(std::vector<Instruction>& to, uint32_t builtin)
 }
 
 // The same of a ray query: `query` has the query and which intersection is meant.
-uint32_t Rewrite::queried(std::vector<Instruction>& to, Op op, const std::vector<uint32_t>& query) { return add(to, op, { uint_ }, query); }
+uint32_t Rewrite::queried(std::vector<Instruction>& to, Op op, const std::vector<uint32_t>& query)
+{
+	return add(to, op, { uint_ }, query);
+}
 
 uint32_t Rewrite::loadRecord(std::vector<Instruction>& to, uint32_t table, uint32_t index, uint32_t value_type, uint32_t pointer_type,
 							 uint32_t alignment)
@@ -211,7 +217,10 @@ uint32_t Rewrite::extract(std::vector<Instruction>& to, uint32_t composite, uint
 	return add(to, OpCompositeExtract, { uint_ }, { composite, member });
 }
 
-uint32_t Rewrite::binary(std::vector<Instruction>& to, Op op, uint32_t a, uint32_t b) { return add(to, op, { uint_ }, { a, b }); }
+uint32_t Rewrite::binary(std::vector<Instruction>& to, Op op, uint32_t a, uint32_t b)
+{
+	return add(to, op, { uint_ }, { a, b });
+}
 
 // uint f(slot, geometry, primitive); see Slot and Row.
 void Rewrite::defineFunction(Wanted wanted)
@@ -271,7 +280,8 @@ void Rewrite::replaceReads()
 	{
 		in_function = in_function || one.op == OpFunction;
 		const auto builtin = one.op == OpLoad && in_function ? builtin_of_.find(one.words[2]) : builtin_of_.end();
-		const bool loads = builtin != builtin_of_.end() && std::find(std::begin(kRewritten), std::end(kRewritten), builtin->second) != std::end(kRewritten);
+		const bool loads =
+			builtin != builtin_of_.end() && std::find(std::begin(kRewritten), std::end(kRewritten), builtin->second) != std::end(kRewritten);
 		if (loads)
 			answer(out, wantedOf(builtin->second), one, nullptr);
 		else if (const auto wanted = wantedOf(one.op))
@@ -291,7 +301,10 @@ void Rewrite::replaceReads()
 }
 
 // Whether an instruction declares a type, a constant or a global variable: where the section of annotations ends.
-bool isDeclaration(Op op) { return (op >= OpTypeVoid && op <= OpTypeForwardPointer) || (op >= 41 && op <= 52) || op == OpVariable || op == OpFunction; }
+bool isDeclaration(Op op)
+{
+	return (op >= OpTypeVoid && op <= OpTypeForwardPointer) || (op >= 41 && op <= 52) || op == OpVariable || op == OpFunction;
+}
 
 // Capabilities, the interface of entry points, and the places where the new declarations go.
 void Rewrite::fixDeclarations()

@@ -14,7 +14,10 @@ void Structures::discard(Device& device, const BottomLevel& structure)
 	device.lookup->geometry_indices.give(structure.first_index, structure.index_count);
 }
 
-void Structures::drop(Device& device, const TopLevel& structure) { device.lookup->slots.give(structure.first_slot, structure.slot_count); }
+void Structures::drop(Device& device, const TopLevel& structure)
+{
+	device.lookup->slots.give(structure.first_slot, structure.slot_count);
+}
 
 void Structures::put(Device& device, VkDeviceAddress address, BottomLevel structure)
 {
@@ -124,8 +127,7 @@ void Structures::clear(Device& device)
 	top_.clear();
 }
 
-VKAPI_ATTR void VKAPI_CALL destroyAccelerationStructure(VkDevice handle, VkAccelerationStructureKHR structure,
-														const VkAllocationCallbacks* allocator)
+VKAPI_ATTR void VKAPI_CALL destroyAccelerationStructure(VkDevice handle, VkAccelerationStructureKHR structure, const VkAllocationCallbacks* allocator)
 {
 	Device& device = deviceOf(handle);
 	if (device.active && structure)

@@ -73,7 +73,6 @@ private:
 
 VKAPI_ATTR void VKAPI_CALL destroyAccelerationStructure(VkDevice device, VkAccelerationStructureKHR structure,
 														const VkAllocationCallbacks* allocator);
-VKAPI_ATTR VkDeviceAddress VKAPI_CALL getAccelerationStructureDeviceAddress(VkDevice device,
-																			const VkAccelerationStructureDeviceAddressInfoKHR* info);
+VKAPI_ATTR VkDeviceAddress VKAPI_CALL getAccelerationStructureDeviceAddress(VkDevice device, const VkAccelerationStructureDeviceAddressInfoKHR* info);
 
 }  // namespace tessera::layer

@@ -9,10 +9,19 @@ namespace tessera::layer
 namespace
 {
 
-VkCommandBuffer bufferOf(VkCommandBuffer buffer) { return buffer; }
-VkCommandBuffer bufferOf(const VkCommandBufferSubmitInfo& info) { return info.commandBuffer; }
+VkCommandBuffer bufferOf(VkCommandBuffer buffer)
+{
+	return buffer;
+}
+VkCommandBuffer bufferOf(const VkCommandBufferSubmitInfo& info)
+{
+	return info.commandBuffer;
+}
 
-std::span<const VkCommandBuffer> buffersOf(const VkSubmitInfo& submit) { return { submit.pCommandBuffers, submit.commandBufferCount }; }
+std::span<const VkCommandBuffer> buffersOf(const VkSubmitInfo& submit)
+{
+	return { submit.pCommandBuffers, submit.commandBufferCount };
+}
 std::span<const VkCommandBufferSubmitInfo> buffersOf(const VkSubmitInfo2& submit)
 {
 	return { submit.pCommandBufferInfos, submit.commandBufferInfoCount };

@@ -1,5 +1,5 @@
-// Top-level structures: their instances are read when the queue comes to the build. Where one refers to a structure of clusters, the driver's structure
-// takes its place; every instance gets a slot of the lookup table in place of its custom index.
+// Top-level structures: their instances are read when the queue comes to the build. Where one refers to a structure of clusters, the driver's
+// structure takes its place; every instance gets a slot of the lookup table in place of its custom index.
 #include "layer/device.h"
 #include "layer/operation.h"
 
@@ -161,9 +161,8 @@ VkResult buildDriver(const HostContext& context, const TopLevelBuild& build, VkD
 	VkAccelerationStructureBuildGeometryInfoKHR info = build.info;
 	info.pGeometries = geometries.data();
 	const VkAccelerationStructureBuildRangeInfoKHR* first = ranges.data();
-	return context.link.run(context.queue, [&](VkCommandBuffer commands) {
-		context.device.next.CmdBuildAccelerationStructuresKHR(commands, 1, &info, &first);
-	});
+	return context.link.run(context.queue,
+							[&](VkCommandBuffer commands) { context.device.next.CmdBuildAccelerationStructuresKHR(commands, 1, &info, &first); });
 }
 
 }  // namespace
@@ -180,8 +179,8 @@ VkResult execute(const HostContext& context, const TopLevelBuild& build)
 	TopLevel top;
 	top.slot_count = static_cast<uint32_t>(instances.size());
 	top.first_slot = device.lookup->slots.take(top.slot_count);
-	top.instances = OwnBuffer::make(device, instances.size() * sizeof(Placed),
-									VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR, true);
+	top.instances =
+		OwnBuffer::make(device, instances.size() * sizeof(Placed), VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR, true);
 	if (top.first_slot == UINT32_MAX || !top.instances)
 		return VK_ERROR_OUT_OF_DEVICE_MEMORY;
 	if (top.first_slot + top.slot_count > 1u << 24)

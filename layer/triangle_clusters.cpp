@@ -36,9 +36,18 @@ TemplateInfo argumentOf(const Operation& operation, uint32_t index)
 	return info;
 }
 
-uint32_t indexBytes(const TemplateInfo& info) { return info.indexType; }  // the bits' values are the sizes: 1, 2 and 4
-uint32_t indexStride(const TemplateInfo& info) { return info.indexBufferStride ? info.indexBufferStride : indexBytes(info); }
-uint32_t geometryStride(const TemplateInfo& info) { return info.geometryIndexAndFlagsBufferStride ? info.geometryIndexAndFlagsBufferStride : 4; }
+uint32_t indexBytes(const TemplateInfo& info)
+{
+	return info.indexType;
+}  // the bits' values are the sizes: 1, 2 and 4
+uint32_t indexStride(const TemplateInfo& info)
+{
+	return info.indexBufferStride ? info.indexBufferStride : indexBytes(info);
+}
+uint32_t geometryStride(const TemplateInfo& info)
+{
+	return info.geometryIndexAndFlagsBufferStride ? info.geometryIndexAndFlagsBufferStride : 4;
+}
 
 uint32_t baseGeometry(const TemplateInfo& info)
 {
