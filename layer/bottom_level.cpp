@@ -87,12 +87,11 @@ VkResult readClusters(const Operation& operation, std::vector<Build>& builds)
 		{
 			if (!seen.insert(reference).second)
 				operation.report().violation("reference-twice", "{}: argument {} has the cluster at {:#x} twice", operation.name(), i, reference);
-			checkAlignment(operation, "reference", reference, alignmentOf(RecordKind::Cluster), fmt::format("a reference of argument {}", i));
 			addresses.push_back(reference);
 		}
 	}
 	std::vector<std::optional<std::vector<std::byte>>> records;
-	const VkResult result = readRecords(operation, addresses, RecordKind::Cluster, "not-a-cluster", records);
+	const VkResult result = readRecords(operation, addresses, RecordKind::Cluster, { "reference", "not-a-cluster" }, records);
 	size_t next = 0;
 	for (Build& build : builds)
 		for (size_t i = 0; result == VK_SUCCESS && i < build.references.size(); ++i, ++next)

@@ -57,7 +57,11 @@ void placeImplicitly(const Operation& operation, std::span<Product> products)
 	const VkDeviceSize alignment = alignmentOf(kindOf(operation.input));
 	VkDeviceAddress next = operation.info.dstImplicitData;
 	if (next == 0)
+	{
 		operation.report().violation("dst-implicit-null", "{}: dstImplicitData is 0, right is the memory of the results", operation.name());
+		std::fill(products.begin(), products.end(), Product{});
+		return;
+	}
 	checkAlignment(operation, "dst-implicit", next, alignment, "dstImplicitData");
 	VkDeviceSize used = 0;
 	for (Product& product : products)
@@ -105,7 +109,11 @@ VkResult placeExplicitly(const Operation& operation, std::span<Product> products
 {
 	const auto& array = operation.info.dstAddressesArray;
 	if (array.deviceAddress == 0)
+	{
 		operation.report().violation("dst-addresses-null", "{}: dstAddressesArray is 0 with explicit destinations", operation.name());
+		std::fill(products.begin(), products.end(), Product{});
+		return VK_SUCCESS;
+	}
 	const auto place = arrayPlace(operation, "dst-addresses", array, 8, static_cast<uint32_t>(products.size()), kStorageUsage);
 	std::vector<VkDeviceAddress> addresses(products.size());
 	if (place)
@@ -195,20 +203,22 @@ VkResult writeRecords(const Operation& operation, std::span<const std::pair<VkDe
 	return operation.context.write(writes);
 }
 
-VkResult readRecords(const Operation& operation, std::span<const VkDeviceAddress> addresses, RecordKind kind, const char* name,
+VkResult readRecords(const Operation& operation, std::span<const VkDeviceAddress> addresses, RecordKind kind, const ReferenceNames& names,
 					 std::vector<std::optional<std::vector<std::byte>>>& records)
 {
 	static constexpr const char* kKinds[] = { "bottom-level structure", "cluster", "template" };
 	const char* wanted = kKinds[size_t(kind)];
 	records.assign(addresses.size(), std::nullopt);
 	const auto complain = [&](size_t i, const std::string& is) {
-		operation.report().violation(name, "{}: reference {} to {:#x} is {}, right is a {} that was built there", operation.name(), i, addresses[i],
-									 is, wanted);
+		operation.report().violation(names.wrong, "{}: reference {} to {:#x} is {}, right is a {} that was built there", operation.name(), i,
+									 addresses[i], is, wanted);
 	};
 	std::vector<std::pair<size_t, size_t>> numbers;  // of the reference, of the read
 	Reads heads;
 	for (size_t i = 0; i < addresses.size(); ++i)
-		if (const auto place = operation.device().addresses.find(addresses[i], sizeof(RecordHead), 0))
+		if (addresses[i] % alignmentOf(kind) != 0)
+			checkAlignment(operation, names.alignment, addresses[i], alignmentOf(kind), fmt::format("reference {}", i));
+		else if (const auto place = operation.device().addresses.find(addresses[i], sizeof(RecordHead), 0))
 			numbers.emplace_back(i, heads.add(*place, sizeof(RecordHead)));
 		else
 			complain(i, "in no live buffer");

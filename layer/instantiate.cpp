@@ -30,10 +30,8 @@ VkResult readTemplates(const Operation& operation, std::span<const Request> requ
 		addresses.push_back(request.info.clusterTemplateAddress);
 	std::sort(addresses.begin(), addresses.end());
 	addresses.erase(std::unique(addresses.begin(), addresses.end()), addresses.end());
-	for (const VkDeviceAddress address : addresses)
-		checkAlignment(operation, "template", address, alignmentOf(RecordKind::Template), "clusterTemplateAddress");
 	std::vector<std::optional<std::vector<std::byte>>> records;
-	const VkResult result = readRecords(operation, addresses, RecordKind::Template, "not-a-template", records);
+	const VkResult result = readRecords(operation, addresses, RecordKind::Template, { "template", "not-a-template" }, records);
 	for (size_t i = 0; result == VK_SUCCESS && i < addresses.size(); ++i)
 		if (records[i])
 			templates[addresses[i]] = decode(*records[i]);

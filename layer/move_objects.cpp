@@ -75,7 +75,7 @@ VkResult moveObjects(const Operation& operation)
 	for (uint32_t i = 0; i < operation.count; ++i)
 		sources[i] = operation.argument<VkClusterAccelerationStructureMoveObjectsInfoNV>(i).srcAccelerationStructure;
 	std::vector<std::optional<std::vector<std::byte>>> records;
-	if (const VkResult result = readRecords(operation, sources, kind, "move-source", records); result != VK_SUCCESS)
+	if (const VkResult result = readRecords(operation, sources, kind, { "move-source", "move-source" }, records); result != VK_SUCCESS)
 		return result;
 	std::vector<Product> products(operation.count);
 	for (size_t i = 0; i < products.size(); ++i)

@@ -54,8 +54,14 @@ VkResult placeProducts(const Operation& operation, std::span<Product> products);
 VkResult writeRecords(const Operation& operation, std::span<const std::pair<VkDeviceAddress, std::vector<std::byte>>> records,
 					  bool structures_placed = false);
 
-// What stands at addresses that should be records of a kind: whole records, nothing where there is none (a violation "NAME" says so).
-VkResult readRecords(const Operation& operation, std::span<const VkDeviceAddress> addresses, RecordKind kind, const char* name,
+// How violations of references are named.
+struct ReferenceNames
+{
+	const char* alignment;  // without "-alignment"
+	const char* wrong;      // it refers to nothing, or to something else
+};
+// What stands at addresses that should be records of a kind: whole records, nothing where there is none (a violation says so).
+VkResult readRecords(const Operation& operation, std::span<const VkDeviceAddress> addresses, RecordKind kind, const ReferenceNames& names,
 					 std::vector<std::optional<std::vector<std::byte>>>& records);
 
 VkResult buildTriangleClusters(const Operation& operation);

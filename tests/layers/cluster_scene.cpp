@@ -12,11 +12,6 @@ namespace
 // Buffers begin anywhere: room to move up to what the extension asks for.
 constexpr VkDeviceSize kMostAlignment = 256;
 
-VkDeviceAddress alignedStart(const Buffer& buffer)
-{
-	return (buffer.address + kMostAlignment - 1) / kMostAlignment * kMostAlignment;
-}
-
 VkClusterAccelerationStructureTriangleClusterInputNV patchInput(uint32_t count)
 {
 	VkClusterAccelerationStructureTriangleClusterInputNV input = { VK_STRUCTURE_TYPE_CLUSTER_ACCELERATION_STRUCTURE_TRIANGLE_CLUSTER_INPUT_NV };
@@ -43,6 +38,11 @@ std::vector<Position> allVertices(uint32_t columns, uint32_t rows)
 }
 
 }  // namespace
+
+VkDeviceAddress alignedStart(const Buffer& buffer)
+{
+	return (buffer.address + kMostAlignment - 1) / kMostAlignment * kMostAlignment;
+}
 
 std::vector<Position> patchVertices(uint32_t x, uint32_t y)
 {
@@ -116,6 +116,24 @@ void ClusterCommand::prepare()
 		info.dstImplicitData = alignedStart(*results);
 	if (input.opMode == kExplicit)
 		info.dstSizesArray = {};
+}
+
+void ClusterCommand::makeRoom()
+{
+	results = std::make_unique<Buffer>(gpu, 1 << 16);
+	scratch = std::make_unique<Buffer>(gpu, 1 << 18);
+	info.dstImplicitData = alignedStart(*results);
+	info.scratchData = alignedStart(*scratch);
+}
+
+void ClusterCommand::makeExplicit()
+{
+	makeRoom();
+	info.input.opMode = kExplicit;
+	info.dstImplicitData = 0;
+	info.dstSizesArray = {};
+	for (uint32_t i = 0; i < argument_count; ++i)
+		destination(i) = alignedStart(*results) + kExplicitStep * i;
 }
 
 void ClusterCommand::run()

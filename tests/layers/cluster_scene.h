@@ -42,6 +42,12 @@ struct ClusterCommand
 	}
 	// Asks for sizes and reserves memory for `argument_count` results.
 	void prepare();
+	// After prepare(): more memory than any of these tests needs, so that a limit can be changed alone.
+	void makeRoom();
+	// After prepare(): explicit destinations in more room, kExplicitStep bytes apart.
+	void makeExplicit();
+	VkDeviceAddress& destination(size_t index) { return reinterpret_cast<VkDeviceAddress*>(addresses->data)[index]; }
+	void setCount(uint32_t value) { std::memcpy(count->data, &value, sizeof(value)); }
 	void record(VkCommandBuffer commands);
 	void run();
 	std::vector<VkDeviceAddress> resultAddresses() const { return addresses->read<VkDeviceAddress>(argument_count); }
@@ -60,6 +66,11 @@ struct PatchData
 	uint32_t count;
 	Buffer vertex_buffer, index_buffer;
 };
+
+inline constexpr VkDeviceSize kExplicitStep = 4096;
+
+// Buffers begin anywhere; this is where results and scratch may.
+VkDeviceAddress alignedStart(const Buffer& buffer);
 
 using ClusterInfo = VkClusterAccelerationStructureBuildTriangleClusterInfoNV;
 using TemplateInfo = VkClusterAccelerationStructureBuildTriangleClusterTemplateInfoNV;
