@@ -148,13 +148,15 @@ private:
 	{
 		constexpr double kWarmupShare = 0.25;
 		const auto start = Clock::now();
+		SettleWatch settling(renderer.planInput().device);
 		const auto isWarm = [&](uint32_t frames) {
-			const double seconds = secondsSince(start);
-			return seconds >= settings_.row_seconds * kWarmupShare ||
-				   (frames >= row.what.options.warmup && seconds >= settleSeconds(renderer.planInput().device));
+			return secondsSince(start) >= settings_.row_seconds * kWarmupShare || (frames >= row.what.options.warmup && settling.isSettled());
 		};
 		for (uint32_t i = 0; !isWarm(i); ++i)
-			TRY(renderer.renderFrame(camera));
+		{
+			TRY_ASSIGN(const FrameResult result, renderer.renderFrame(camera));
+			settling.add(result.gpu_ms, secondsSince(start));
+		}
 		for (uint32_t i = 0; i < row.what.options.frames && (i == 0 || secondsSince(start) < settings_.row_seconds); ++i)
 		{
 			TRY_ASSIGN(const FrameResult result, renderer.renderFrame(camera));

@@ -91,14 +91,14 @@ private:
 			return std::chrono::duration<double>(Clock::now() - start).count() * double(cameras_.size()) / kRunSeconds;
 		};
 		progress_.begin(fmt::format("drawing {}", run_.setting.label()), warmup_ + frames_);
+		SettleWatch settling(renderer_.planInput().device);
 		const auto isWarm = [&](uint32_t frames) {
-			const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-			const bool settled = frames >= warmup_ && seconds >= settleSeconds(renderer_.planInput().device);
-			return settled || (frames > 0 && share() >= 0.25);
+			return (frames >= warmup_ && settling.isSettled()) || (frames > 0 && share() >= 0.25);
 		};
 		for (uint32_t i = 0; !isWarm(i); ++i, ++run_.warmup)
 		{
-			TRY(renderer_.renderFrame(camera));
+			TRY_ASSIGN(const FrameResult frame, renderer_.renderFrame(camera));
+			settling.add(frame.gpu_ms, std::chrono::duration<double>(Clock::now() - start).count());
 			if (i < warmup_)
 				progress_.advance();
 		}

@@ -1,5 +1,6 @@
 #include "app/report_sweep.h"
 
+#include "app/busy_device.h"
 #include "app/list_options.h"
 #include "app/report_drawing.h"
 #include "app/scene_load.h"
@@ -192,6 +193,7 @@ private:
 		TRY_ASSIGN(const std::vector<DrawnView> views, drawPath(*renderer, cameras_, options, progress_, run));
 		TRY_ASSIGN(const report::Picture picture, pictureOf(*renderer, options));
 		run.bytes = bytesOf(renderer->memory());
+		const BusyDevice busy(*renderer, cameras_[0]);
 		run.image = report::compareImages(picture, reference_picture_);
 		const std::string name =
 			fmt::format("rate{}_{}_{}_{}x{}.png", run.setting.rate, run.setting.raster, run.setting.metric, options.width_px, options.height_px);

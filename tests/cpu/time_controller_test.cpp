@@ -1,4 +1,5 @@
-// The controller of --max-ms, on frames whose time a formula gives.
+// The controller of --max-ms, and when times can be trusted, on frames whose time a formula gives.
+#include "frame/settle.h"
 #include "frame/time_controller.h"
 
 #include <gtest/gtest.h>
@@ -106,6 +107,52 @@ TEST(timeController, framesOfAnOlderRateDoNotCorrectTheNewOne)
 	controller.endFrame(1, 4);
 	controller.endFrame(1, 4);
 	EXPECT_EQ(controller.rate(), corrected);
+}
+
+// --- When a device has settled ---------------------------------------------------------------------------------------------------------------
+
+namespace
+{
+
+// Seconds after which frames count as settled, when one that ends at `seconds` takes `ms(seconds)`.
+double settledAfter(const std::function<double(double)>& ms, bool is_cpu = false)
+{
+	DeviceTraits device;
+	device.is_cpu = is_cpu;
+	SettleWatch watch(device);
+	double seconds = 0;
+	while (!watch.isSettled() && seconds < 100)
+	{
+		seconds += 1e-3 * ms(seconds) + 1e-4;
+		watch.add(ms(seconds), seconds);
+	}
+	return seconds;
+}
+
+}  // namespace
+
+TEST(settleWatch, waitsWhileFramesGetFaster)
+{
+	// Twice as fast within 1.5 seconds, then at rest.
+	const auto ramp = [](double seconds) {
+		return 0.2 - 0.1 * std::min(seconds / 1.5, 1.0);
+	};
+	EXPECT_GE(settledAfter(ramp), 1.5);
+	EXPECT_LE(settledAfter(ramp), 2.5);
+}
+
+TEST(settleWatch, steadyFramesTakeThreeWindows)
+{
+	std::mt19937 random(5);
+	std::normal_distribution<double> noise(0.3, 0.01);
+	EXPECT_NEAR(settledAfter([&](double) { return noise(random); }), 0.6, 0.25);
+}
+
+TEST(settleWatch, givesUpAndNeverWaitsOnAProcessor)
+{
+	EXPECT_NEAR(settledAfter([](double seconds) { return std::exp(-seconds); }), 3, 0.1) << "faster for ever";
+	EXPECT_LE(settledAfter([](double) { return 5000.0; }), 6) << "slow frames";
+	EXPECT_EQ(settledAfter([](double) { return 1.0; }, true), 0);
 }
 
 }  // namespace tessera::test
