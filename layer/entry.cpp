@@ -66,6 +66,8 @@ const Table& deviceTable()
 		{ "vkDestroyAccelerationStructureKHR", plain(destroyAccelerationStructure) },
 		{ "vkGetAccelerationStructureDeviceAddressKHR", plain(getAccelerationStructureDeviceAddress) },
 		{ "vkCmdBuildAccelerationStructuresKHR", plain(cmdBuildAccelerationStructures) },
+		{ "vkCmdBuildAccelerationStructuresIndirectKHR", plain(cmdBuildAccelerationStructuresIndirect) },
+		{ "vkBuildAccelerationStructuresKHR", plain(buildAccelerationStructures) },
 		{ "vkCmdCopyAccelerationStructureKHR", plain(cmdCopyAccelerationStructure) },
 		{ "vkCreateShaderModule", plain(createShaderModule) },
 		{ "vkDestroyShaderModule", plain(destroyShaderModule) },

@@ -55,6 +55,13 @@ VKAPI_ATTR void VKAPI_CALL cmdBuildClusterAccelerationStructureIndirect(VkComman
 VKAPI_ATTR void VKAPI_CALL cmdBuildAccelerationStructures(VkCommandBuffer buffer, uint32_t count,
 														  const VkAccelerationStructureBuildGeometryInfoKHR* infos,
 														  const VkAccelerationStructureBuildRangeInfoKHR* const* ranges);
+VKAPI_ATTR void VKAPI_CALL cmdBuildAccelerationStructuresIndirect(VkCommandBuffer buffer, uint32_t count,
+																  const VkAccelerationStructureBuildGeometryInfoKHR* infos,
+																  const VkDeviceAddress* addresses, const uint32_t* strides,
+																  const uint32_t* const* most);
+VKAPI_ATTR VkResult VKAPI_CALL buildAccelerationStructures(VkDevice device, VkDeferredOperationKHR deferred, uint32_t count,
+														   const VkAccelerationStructureBuildGeometryInfoKHR* infos,
+														   const VkAccelerationStructureBuildRangeInfoKHR* const* ranges);
 VKAPI_ATTR void VKAPI_CALL cmdCopyAccelerationStructure(VkCommandBuffer buffer, const VkCopyAccelerationStructureInfoKHR* info);
 VKAPI_ATTR void VKAPI_CALL getClusterAccelerationStructureBuildSizes(VkDevice device, const VkClusterAccelerationStructureInputInfoNV* info,
 																	 VkAccelerationStructureBuildSizesInfoKHR* sizes);

@@ -19,11 +19,13 @@ constexpr VkStructureType kOptIn = VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CLUSTE
 void checkOptIn(Device& device, const VkRayTracingPipelineCreateInfoKHR& info)
 {
 	const auto* opt_in = findInChain<const VkRayTracingPipelineClusterAccelerationStructureCreateInfoNV>(info.pNext, kOptIn);
-	if (opt_in && opt_in->allowClusterAccelerationStructure)
-		return;
+	const bool allowed = opt_in && opt_in->allowClusterAccelerationStructure;
 	const std::lock_guard guard(device.object_lock);
 	for (uint32_t i = 0; i < info.stageCount; ++i)
-		if (device.cluster_modules.contains(info.pStages[i].module))
+		if (!info.pStages[i].module)
+			device.report.limit("limit-inline-shader",
+								"vkCreateRayTracingPipelinesKHR: stage {} has no shader module, so the layer did not see its code", i);
+		else if (!allowed && device.cluster_modules.contains(info.pStages[i].module))
 			device.report.violation("pipeline-without-clusters",
 									"vkCreateRayTracingPipelinesKHR: stage {} reads gl_ClusterIDNV, but the pipeline has no "
 									"VkRayTracingPipelineClusterAccelerationStructureCreateInfoNV that allows clusters",
@@ -39,8 +41,8 @@ VKAPI_ATTR VkResult VKAPI_CALL createShaderModule(VkDevice handle, const VkShade
 	if (!device.active)
 		return device.next.CreateShaderModule(handle, info, allocator, shader);
 	const Rewritten rewritten = rewriteShader({ info->pCode, info->codeSize / sizeof(uint32_t) }, device.lookup->root());
-	for (const std::string& problem : rewritten.problems)
-		device.report.limit("limit-shader", "vkCreateShaderModule: {}", problem);
+	for (const auto& [name, problem] : rewritten.problems)
+		device.report.limit(name, "vkCreateShaderModule: {}", problem);
 	if (rewritten.reads_cluster_id && !rewritten.says_so)
 		device.report.violation(
 			"shader-capability",

@@ -1,11 +1,12 @@
 // The rewrite: new functions at the module's end look things up; instructions that read one of the built-ins become calls of them.
 #include "layer/spirv_rewrite.h"
 
-#include "layer/spirv_module.h"
+#include "layer/spirv_lookup.h"
 
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace tessera::layer
 {
@@ -14,15 +15,6 @@ namespace
 {
 
 using namespace spirv;
-
-// What is read of a hit; also which look-up function answers it.
-enum class Wanted
-{
-	CustomIndex,
-	GeometryIndex,
-	ClusterId,
-	Count,
-};
 
 struct Variable
 {
@@ -37,38 +29,37 @@ public:
 
 private:
 	void scan();
+	void checkStride(const Instruction& trace_ray);
 	bool reads() const;
-	uint32_t type(Op op, std::vector<uint32_t> operands);
-	uint32_t constant(uint32_t value);
-	uint32_t add(std::vector<Instruction>& to, Op op, std::vector<uint32_t> operands_before, std::vector<uint32_t> operands_after);
-	void declareTables();
 	void declareInputs();
 	uint32_t input(std::vector<Instruction>& to, uint32_t builtin);
-	uint32_t queried(std::vector<Instruction>& to, Op op, const std::vector<uint32_t>& query);
-	uint32_t loadRecord(std::vector<Instruction>& to, uint32_t table, uint32_t index, uint32_t value_type, uint32_t pointer_type, uint32_t alignment);
-	uint32_t extract(std::vector<Instruction>& to, uint32_t composite, uint32_t member);
-	uint32_t binary(std::vector<Instruction>& to, Op op, uint32_t a, uint32_t b);
-	void defineFunction(Wanted wanted);
 	void answer(std::vector<Instruction>& to, Wanted wanted, const Instruction& replaced, const std::vector<uint32_t>* query);
 	void replaceReads();
-	void fixDeclarations();
+	uint32_t clusterVariable() const;
+	bool isDropped(const Instruction& one) const;
+	void fixEntryPoint(Instruction& entry) const;
+	void assemble();
 
 	Module& module_;
 	VkDeviceAddress root_;
 	Rewritten result_;
 	std::map<uint32_t, uint32_t> pointees_;    // pointer type to what it points to
+	std::map<uint32_t, uint32_t> constants_;   // their first word
 	std::map<uint32_t, Variable> by_builtin_;  // builtin to its input variable
 	std::map<uint32_t, uint32_t> builtin_of_;  // variable to builtin
-	std::map<Wanted, uint32_t> functions_;
-	std::vector<Instruction> types_, decorations_, bodies_;
+	std::optional<LookupCode> lookup_;
 	std::vector<uint32_t> new_inputs_;
 	bool has_queries_ = false;
-	uint32_t uint_ = 0, uint4_ = 0, function_type_ = 0;
-	uint32_t root_pointer_ = 0, records_pointer_ = 0, record_pointer_ = 0, indices_pointer_ = 0, index_pointer_ = 0, records_member_ = 0,
-			 indices_member_ = 0, root_address_ = 0;
 };
 
 constexpr uint32_t kRewritten[] = { BuiltInCustomIndex, BuiltInGeometryIndex, BuiltInClusterId };
+constexpr uint32_t kArguments[] = { BuiltInCustomIndex, BuiltInGeometryIndex, BuiltInPrimitiveId };  // of the functions that look up
+constexpr uint32_t kVersion15 = 0x10500;
+
+bool isRewritten(uint32_t builtin)
+{
+	return std::find(std::begin(kRewritten), std::end(kRewritten), builtin) != std::end(kRewritten);
+}
 
 Wanted wantedOf(uint32_t builtin)
 {
@@ -90,6 +81,15 @@ std::optional<Wanted> wantedOf(Op op)
 	}
 }
 
+// Rays that choose hit groups by geometry: here geometries are clusters.
+void Rewrite::checkStride(const Instruction& trace_ray)
+{
+	const auto found = constants_.find(trace_ray.words[4]);
+	if (found == constants_.end() || found->second != 0)
+		result_.problems.emplace_back("limit-hit-group-stride",
+									  "traceRayEXT has a stride between the hit groups of geometries that is not the constant 0");
+}
+
 void Rewrite::scan()
 {
 	for (const Instruction& one : module_.code)
@@ -103,11 +103,21 @@ void Rewrite::scan()
 			by_builtin_[builtin_of_[words[1]]] = { words[1], pointees_[words[0]] };
 		else if (one.op == OpCapability && words[0] == CapabilityCluster)
 			result_.says_so = true;
+		else if (one.op == OpConstant)
+			constants_[words[1]] = words[2];
+		else if (one.op == OpTraceRay)
+			checkStride(one);
 		else if (wantedOf(one.op))
 			has_queries_ = true;
 		result_.reads_cluster_id = result_.reads_cluster_id || one.op == OpRayQueryClusterId;
 	}
 	result_.reads_cluster_id = result_.reads_cluster_id || by_builtin_.contains(BuiltInClusterId);
+}
+
+uint32_t Rewrite::clusterVariable() const
+{
+	const auto found = by_builtin_.find(BuiltInClusterId);
+	return found == by_builtin_.end() ? 0 : found->second.id;
 }
 
 bool Rewrite::reads() const
@@ -116,72 +126,19 @@ bool Rewrite::reads() const
 		   std::any_of(std::begin(kRewritten), std::end(kRewritten), [&](uint32_t builtin) { return by_builtin_.contains(builtin); });
 }
 
-uint32_t Rewrite::add(std::vector<Instruction>& to, Op op, std::vector<uint32_t> before, std::vector<uint32_t> after)
-{
-	const uint32_t id = module_.newId();
-	before.push_back(id);
-	before.insert(before.end(), after.begin(), after.end());
-	to.push_back({ op, std::move(before) });
-	return id;
-}
-
-// Numbers and vectors must not be declared twice; pointers and structures may.
-uint32_t Rewrite::type(Op op, std::vector<uint32_t> operands)
-{
-	const auto same = [&](const Instruction& one) {
-		return one.op == op && one.words.size() == operands.size() + 1 && std::equal(operands.begin(), operands.end(), one.words.begin() + 1);
-	};
-	if (op == OpTypeInt || op == OpTypeVector || op == OpTypeFunction)
-		for (const std::vector<Instruction>* list : { &module_.code, &types_ })
-			if (const auto found = std::find_if(list->begin(), list->end(), same); found != list->end())
-				return found->words[0];
-	return add(types_, op, {}, std::move(operands));
-}
-
-uint32_t Rewrite::constant(uint32_t value)
-{
-	return add(types_, OpConstant, { uint_ }, { value });
-}
-
-void Rewrite::declareTables()
-{
-	uint_ = type(OpTypeInt, { 32, 0 });
-	uint4_ = type(OpTypeVector, { uint_, 4 });
-	const auto arrayOf = [&](uint32_t element, uint32_t stride) {
-		const uint32_t array = type(OpTypeRuntimeArray, { element }), block = type(OpTypeStruct, { array });
-		decorations_.push_back({ OpDecorate, { array, DecorationArrayStride, stride } });
-		decorations_.push_back({ OpDecorate, { block, DecorationBlock } });
-		decorations_.push_back({ OpMemberDecorate, { block, 0, DecorationOffset, 0 } });
-		return type(OpTypePointer, { StoragePhysical, block });
-	};
-	records_pointer_ = arrayOf(uint4_, 16);
-	indices_pointer_ = arrayOf(uint_, 4);
-	record_pointer_ = type(OpTypePointer, { StoragePhysical, uint4_ });
-	index_pointer_ = type(OpTypePointer, { StoragePhysical, uint_ });
-	records_member_ = type(OpTypePointer, { StoragePhysical, records_pointer_ });
-	indices_member_ = type(OpTypePointer, { StoragePhysical, indices_pointer_ });
-	const uint32_t root = type(OpTypeStruct, { records_pointer_, records_pointer_, indices_pointer_ });
-	decorations_.push_back({ OpDecorate, { root, DecorationBlock } });
-	for (uint32_t member = 0; member < 3; ++member)
-		decorations_.push_back({ OpMemberDecorate, { root, member, DecorationOffset, 8 * member } });
-	root_pointer_ = type(OpTypePointer, { StoragePhysical, root });
-	const uint32_t uint2 = type(OpTypeVector, { uint_, 2 });
-	root_address_ = add(types_, OpConstantComposite, { uint2 }, { constant(uint32_t(root_)), constant(uint32_t(root_ >> 32)) });
-	function_type_ = type(OpTypeFunction, { uint_, uint_, uint_, uint_ });
-}
-
 // Variables for what the look-ups start from, where the module has none.
 void Rewrite::declareInputs()
 {
 	if (std::none_of(std::begin(kRewritten), std::end(kRewritten), [&](uint32_t builtin) { return by_builtin_.contains(builtin); }))
 		return;
-	for (const uint32_t builtin : { uint32_t(BuiltInCustomIndex), uint32_t(BuiltInGeometryIndex), uint32_t(BuiltInPrimitiveId) })
+	for (const uint32_t builtin : kArguments)
 		if (!by_builtin_.contains(builtin))
 		{
-			const uint32_t pointer = type(OpTypePointer, { StorageInput, uint_ });
-			const uint32_t variable = add(types_, OpVariable, { pointer }, { StorageInput });
-			decorations_.push_back({ OpDecorate, { variable, DecorationBuiltIn, builtin } });
-			by_builtin_[builtin] = { variable, uint_ };
+			const uint32_t number = lookup_->uintType();
+			const uint32_t pointer = lookup_->type(OpTypePointer, { StorageInput, number });
+			const uint32_t variable = lookup_->add(lookup_->declarations, OpVariable, { pointer }, { StorageInput });
+			lookup_->decorations.push_back({ OpDecorate, { variable, DecorationBuiltIn, builtin } });
+			by_builtin_[builtin] = { variable, number };
 			new_inputs_.push_back(variable);
 		}
 }
@@ -190,99 +147,39 @@ void Rewrite::declareInputs()
 uint32_t Rewrite::input(std::vector<Instruction>& to, uint32_t builtin)
 {
 	const Variable variable = by_builtin_.at(builtin);
-	const uint32_t value = add(to, OpLoad, { variable.type }, { variable.id });
-	return variable.type == uint_ ? value : add(to, OpBitcast, { uint_ }, { value });
+	const uint32_t number = lookup_->uintType();
+	const uint32_t value = lookup_->add(to, OpLoad, { variable.type }, { variable.id });
+	return variable.type == number ? value : lookup_->add(to, OpBitcast, { number }, { value });
 }
 
-// The same of a ray query: `query` has the query and which intersection is meant.
-uint32_t Rewrite::queried(std::vector<Instruction>& to, Op op, const std::vector<uint32_t>& query)
-{
-	return add(to, op, { uint_ }, query);
-}
-
-uint32_t Rewrite::loadRecord(std::vector<Instruction>& to, uint32_t table, uint32_t index, uint32_t value_type, uint32_t pointer_type,
-							 uint32_t alignment)
-{
-	constexpr uint32_t kAligned = 2;
-	const bool indices = pointer_type == index_pointer_;
-	const uint32_t root = add(to, OpBitcast, { root_pointer_ }, { root_address_ });
-	const uint32_t member = add(to, OpAccessChain, { indices ? indices_member_ : records_member_ }, { root, constant(table) });
-	const uint32_t array = add(to, OpLoad, { indices ? indices_pointer_ : records_pointer_ }, { member, kAligned, 8 });
-	const uint32_t place = add(to, OpAccessChain, { pointer_type }, { array, constant(0), index });
-	return add(to, OpLoad, { value_type }, { place, kAligned, alignment });
-}
-
-uint32_t Rewrite::extract(std::vector<Instruction>& to, uint32_t composite, uint32_t member)
-{
-	return add(to, OpCompositeExtract, { uint_ }, { composite, member });
-}
-
-uint32_t Rewrite::binary(std::vector<Instruction>& to, Op op, uint32_t a, uint32_t b)
-{
-	return add(to, op, { uint_ }, { a, b });
-}
-
-// uint f(slot, geometry, primitive); see Slot and Row.
-void Rewrite::defineFunction(Wanted wanted)
-{
-	std::vector<Instruction>& to = bodies_;
-	constexpr uint32_t kNone = 0;
-	functions_[wanted] = add(to, OpFunction, { uint_ }, { kNone, function_type_ });
-	const uint32_t slot_number = add(to, OpFunctionParameter, { uint_ }, {});
-	const uint32_t geometry = add(to, OpFunctionParameter, { uint_ }, {});
-	const uint32_t primitive = add(to, OpFunctionParameter, { uint_ }, {});
-	add(to, OpLabel, {}, {});
-	const uint32_t slot = loadRecord(to, 0, slot_number, uint4_, record_pointer_, 16);
-	uint32_t value = extract(to, slot, 0);
-	if (wanted != Wanted::CustomIndex)
-	{
-		const uint32_t row_number = binary(to, OpIAdd, extract(to, slot, 1), binary(to, OpIMul, geometry, extract(to, slot, 2)));
-		const uint32_t row = loadRecord(to, 1, row_number, uint4_, record_pointer_, 16);
-		value = extract(to, row, 0);
-		if (wanted == Wanted::GeometryIndex)
-		{
-			const uint32_t place = binary(to, OpIAdd, extract(to, row, 1), binary(to, OpIMul, primitive, extract(to, row, 2)));
-			const uint32_t index = loadRecord(to, 2, place, uint_, index_pointer_, 4);
-			value = binary(to, OpIAdd, index, binary(to, OpIMul, geometry, extract(to, slot, 3)));
-		}
-	}
-	to.push_back({ OpReturnValue, { value } });
-	to.push_back({ OpFunctionEnd, {} });
-}
-
-// In place of an instruction that read it: the same result id, of the same type.
+// In place of an instruction that read it: the same result id, of the same type. `query`: the ray query and which intersection is meant, if any.
 void Rewrite::answer(std::vector<Instruction>& to, Wanted wanted, const Instruction& replaced, const std::vector<uint32_t>* query)
 {
-	std::vector<uint32_t> arguments = { functions_.at(wanted) };
+	const uint32_t type = replaced.words[0], id = replaced.words[1], number = lookup_->uintType();
+	std::vector<uint32_t> arguments = { lookup_->function(wanted) };
 	if (query)
 		for (const Op op : { OpRayQueryCustomIndex, OpRayQueryGeometryIndex, OpRayQueryPrimitiveIndex })
-			arguments.push_back(queried(to, op, *query));
+			arguments.push_back(lookup_->add(to, op, { number }, *query));
 	else
-		for (const uint32_t builtin : { uint32_t(BuiltInCustomIndex), uint32_t(BuiltInGeometryIndex), uint32_t(BuiltInPrimitiveId) })
+		for (const uint32_t builtin : kArguments)
 			arguments.push_back(input(to, builtin));
-	const uint32_t type = replaced.words[0], id = replaced.words[1];
-	if (type == uint_)
+	if (type == number)
 	{
-		std::vector<uint32_t> words = { type, id };
-		words.insert(words.end(), arguments.begin(), arguments.end());
-		to.push_back({ OpFunctionCall, std::move(words) });
+		arguments.insert(arguments.begin(), { type, id });
+		to.push_back({ OpFunctionCall, std::move(arguments) });
 		return;
 	}
-	const uint32_t value = add(to, OpFunctionCall, { uint_ }, arguments);
+	const uint32_t value = lookup_->add(to, OpFunctionCall, { number }, arguments);
 	to.push_back({ OpBitcast, { type, id, value } });
 }
 
 void Rewrite::replaceReads()
 {
 	std::vector<Instruction> out;
-	bool in_function = false;
 	for (const Instruction& one : module_.code)
 	{
-		in_function = in_function || one.op == OpFunction;
-		const auto builtin = one.op == OpLoad && in_function ? builtin_of_.find(one.words[2]) : builtin_of_.end();
-		const bool loads =
-			builtin != builtin_of_.end() && std::find(std::begin(kRewritten), std::end(kRewritten), builtin->second) != std::end(kRewritten);
-		if (loads)
+		const auto builtin = one.op == OpLoad ? builtin_of_.find(one.words[2]) : builtin_of_.end();
+		if (builtin != builtin_of_.end() && isRewritten(builtin->second))
 			answer(out, wantedOf(builtin->second), one, nullptr);
 		else if (const auto wanted = wantedOf(one.op))
 		{
@@ -291,9 +188,10 @@ void Rewrite::replaceReads()
 		}
 		else
 		{
-			if (in_function && one.op != OpLoad && by_builtin_.contains(BuiltInClusterId) &&
-				std::find(one.words.begin(), one.words.end(), by_builtin_[BuiltInClusterId].id) != one.words.end() && one.op == OpFunctionCall)
-				result_.problems.push_back("gl_ClusterIDNV is passed to a function by reference");
+			if (one.op == OpFunctionCall || one.op == OpCopyMemory)
+				for (const uint32_t word : one.words)
+					if (builtin_of_.contains(word) && isRewritten(builtin_of_[word]))
+						result_.problems.emplace_back("limit-shader", "a built-in of a hit is read other than by a load");
 			out.push_back(one);
 		}
 	}
@@ -303,56 +201,64 @@ void Rewrite::replaceReads()
 // Whether an instruction declares a type, a constant or a global variable: where the section of annotations ends.
 bool isDeclaration(Op op)
 {
-	return (op >= OpTypeVoid && op <= OpTypeForwardPointer) || (op >= 41 && op <= 52) || op == OpVariable || op == OpFunction;
+	return (op >= OpTypeVoid && op <= OpTypeForwardPointer) || (op >= OpConstantTrue && op <= OpSpecConstantOp) || op == OpVariable ||
+		   op == OpFunction;
 }
 
-// Capabilities, the interface of entry points, and the places where the new declarations go.
-void Rewrite::fixDeclarations()
+// Not needed any more, or not known to the driver.
+bool Rewrite::isDropped(const Instruction& one) const
 {
-	const uint32_t cluster_variable = by_builtin_.contains(BuiltInClusterId) ? by_builtin_[BuiltInClusterId].id : 0;
+	if (one.op == OpCapability)
+		return one.words[0] == CapabilityCluster;
+	if (one.op == OpExtension)
+		return one.words == stringWords("SPV_NV_cluster_acceleration_structure");
+	const uint32_t variable = clusterVariable();
+	if (one.op == OpName || one.op == OpDecorate)
+		return variable && one.words[0] == variable;
+	return one.op == OpVariable && one.words[1] == variable;
+}
+
+void Rewrite::fixEntryPoint(Instruction& entry) const
+{
+	const size_t interface = 2 + stringLength(std::span(entry.words).subspan(2));
+	if (const uint32_t variable = clusterVariable())
+		entry.words.erase(std::remove(entry.words.begin() + std::ptrdiff_t(interface), entry.words.end(), variable), entry.words.end());
+	if (entry.words[0] >= ModelIntersection && entry.words[0] <= ModelClosestHit)
+		entry.words.insert(entry.words.end(), new_inputs_.begin(), new_inputs_.end());
+}
+
+// Capabilities, the interfaces of entry points, and the new declarations in their places.
+void Rewrite::assemble()
+{
+	std::vector<Instruction> out;
+	const auto append = [&](const std::vector<Instruction>& what) {
+		out.insert(out.end(), what.begin(), what.end());
+	};
 	const bool has_addresses = std::any_of(module_.code.begin(), module_.code.end(), [](const Instruction& one) {
 		return one.op == OpCapability && one.words[0] == CapabilityPhysicalAddresses;
 	});
-	std::vector<Instruction> out;
 	if (!has_addresses)
 		out.push_back({ OpCapability, { CapabilityPhysicalAddresses } });
 	bool declared = false, functions = false;
 	for (Instruction& one : module_.code)
 	{
-		if (one.op == OpCapability && one.words[0] == CapabilityCluster)
-			continue;
-		if (one.op == OpExtension && one.words == stringWords("SPV_NV_cluster_acceleration_structure"))
-			continue;
-		if ((one.op == OpName || one.op == OpDecorate) && cluster_variable && one.words[0] == cluster_variable)
-			continue;
-		if (one.op == OpVariable && cluster_variable && one.words[1] == cluster_variable)
+		if (isDropped(one))
 			continue;
 		if (one.op == OpMemoryModel)
 		{
-			if (!has_addresses && module_.version < 0x10500)
+			if (!has_addresses && module_.version < kVersion15)
 				out.push_back({ OpExtension, stringWords("SPV_KHR_physical_storage_buffer") });
 			one.words[0] = AddressingPhysical64;
 		}
 		if (one.op == OpEntryPoint)
-		{
-			const size_t interface = 2 + stringLength(std::span(one.words).subspan(2));
-			one.words.erase(std::remove(one.words.begin() + std::ptrdiff_t(interface), one.words.end(), cluster_variable), one.words.end());
-			if (one.words[0] >= ModelIntersection && one.words[0] <= ModelClosestHit)
-				one.words.insert(one.words.end(), new_inputs_.begin(), new_inputs_.end());
-		}
-		if (!declared && isDeclaration(one.op))
-		{
-			out.insert(out.end(), decorations_.begin(), decorations_.end());
-			declared = true;
-		}
-		if (!functions && one.op == OpFunction)
-		{
-			out.insert(out.end(), types_.begin(), types_.end());
-			functions = true;
-		}
+			fixEntryPoint(one);
+		if (!std::exchange(declared, declared || isDeclaration(one.op)) && declared)
+			append(lookup_->decorations);
+		if (!std::exchange(functions, functions || one.op == OpFunction) && functions)
+			append(lookup_->declarations);
 		out.push_back(std::move(one));
 	}
-	out.insert(out.end(), bodies_.begin(), bodies_.end());
+	append(lookup_->bodies);
 	module_.code = std::move(out);
 }
 
@@ -361,12 +267,10 @@ Rewritten Rewrite::run()
 	scan();
 	if (!reads())
 		return result_;
-	declareTables();
+	lookup_.emplace(module_, root_);
 	declareInputs();
-	for (size_t i = 0; i < size_t(Wanted::Count); ++i)
-		defineFunction(static_cast<Wanted>(i));
 	replaceReads();
-	fixDeclarations();
+	assemble();
 	result_.words = module_.words();
 	return result_;
 }

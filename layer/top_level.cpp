@@ -230,6 +230,29 @@ VKAPI_ATTR void VKAPI_CALL cmdBuildAccelerationStructures(VkCommandBuffer buffer
 		recordHostCommand(device, buffer, std::move(build), "vkCmdBuildAccelerationStructuresKHR of a top-level structure");
 }
 
+VKAPI_ATTR void VKAPI_CALL cmdBuildAccelerationStructuresIndirect(VkCommandBuffer buffer, uint32_t count,
+																  const VkAccelerationStructureBuildGeometryInfoKHR* infos,
+																  const VkDeviceAddress* addresses, const uint32_t* strides,
+																  const uint32_t* const* most)
+{
+	Device& device = deviceOf(buffer);
+	const Recording* recording = device.active ? device.recordings.find(buffer) : nullptr;
+	if (recording && std::any_of(infos, infos + count, isTopLevel))
+		device.report.limit("limit-top-level",
+							"vkCmdBuildAccelerationStructuresIndirectKHR of a top-level structure: the layer does not see its instances");
+	device.next.CmdBuildAccelerationStructuresIndirectKHR(recording ? recording->current : buffer, count, infos, addresses, strides, most);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL buildAccelerationStructures(VkDevice handle, VkDeferredOperationKHR deferred, uint32_t count,
+														   const VkAccelerationStructureBuildGeometryInfoKHR* infos,
+														   const VkAccelerationStructureBuildRangeInfoKHR* const* ranges)
+{
+	Device& device = deviceOf(handle);
+	if (device.active && std::any_of(infos, infos + count, isTopLevel))
+		device.report.limit("limit-top-level", "vkBuildAccelerationStructuresKHR of a top-level structure: the layer does not see its instances");
+	return device.next.BuildAccelerationStructuresKHR(handle, deferred, count, infos, ranges);
+}
+
 VKAPI_ATTR void VKAPI_CALL cmdCopyAccelerationStructure(VkCommandBuffer buffer, const VkCopyAccelerationStructureInfoKHR* info)
 {
 	Device& device = deviceOf(buffer);

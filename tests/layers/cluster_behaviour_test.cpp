@@ -1,5 +1,6 @@
 // What clusters do besides being met by rays: explicit destinations, sizes, moves, geometry indices, commands between others.
 #include "layers/cluster_mistakes.h"
+#include "layers/cluster_tracer.h"
 #include "layers/layer_report.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +37,7 @@ std::vector<Hit> hitsOf(Stage& stage, const std::vector<VkDeviceAddress>& cluste
 	ClusterCommand bottom = stage.bottomLevels(clusters);
 	bottom.run();
 	const auto scene = topLevel(stage.gpu, std::vector{ placed(bottom.resultAddresses()[0], 0.0f, 0.0f, 1) });
-	return trace(stage.gpu, *scene, "cluster.rchit", kExtent, kSide, between);
+	return trace(stage.gpu, *scene, "cluster.rchit", kExtent, kSide, { between });
 }
 
 bool same(const Hit& a, const Hit& b)
@@ -235,14 +236,6 @@ TEST(clusterLayer, aTriangleWithACornerThatIsNotANumberIsMetByNoRay)
 		EXPECT_GT(gone, 0u);
 		EXPECT_LT(gone, whole.size() / 8);
 	});
-}
-
-TEST(clusterLayer, aFeatureThatIsOffIsNamed)
-{
-	const LayerReport report = underTheLayer([](Gpu& gpu) { Stage(gpu).clusters().run(); }, false);
-	if (!report.device)
-		GTEST_SKIP() << "the device cannot trace rays";
-	EXPECT_TRUE(report.violations.contains("feature-off"));
 }
 
 }  // namespace tessera::test

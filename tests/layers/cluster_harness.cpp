@@ -2,17 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstdlib>
-#include <fstream>
 
 namespace tessera::test
 {
 
 namespace
 {
-
-#define EXPECT_VK(call) EXPECT_EQ(call, VK_SUCCESS)
 
 bool offers(VkPhysicalDevice physical, const std::string& name)
 {
@@ -43,16 +39,6 @@ VkInstance makeInstance()
 	return instance;
 }
 
-std::vector<uint32_t> shaderWords(const std::string& name)
-{
-	std::ifstream file(std::string(TESSERA_LAYER_SHADERS) + "/" + name + ".spv", std::ios::binary | std::ios::ate);
-	std::vector<uint32_t> words(file ? size_t(file.tellg()) / 4 : 0);
-	file.seekg(0);
-	file.read(reinterpret_cast<char*>(words.data()), std::streamsize(words.size() * 4));
-	EXPECT_FALSE(words.empty()) << name;
-	return words;
-}
-
 }  // namespace
 
 bool Gpu::open(bool feature)
@@ -80,13 +66,20 @@ bool Gpu::open(bool feature)
 	structures.accelerationStructure = VK_TRUE;
 	VkPhysicalDeviceRayTracingPipelineFeaturesKHR rays = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR, &structures };
 	rays.rayTracingPipeline = VK_TRUE;
-	VkPhysicalDeviceVulkan12Features vulkan12 = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &rays };
+	VkPhysicalDeviceRayQueryFeaturesKHR queries = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR, &rays };
+	queries.rayQuery = VK_TRUE;
+	has_queries = offers(physical, VK_KHR_RAY_QUERY_EXTENSION_NAME);
+	void* chain = has_queries ? static_cast<void*>(&queries) : &rays;
+	VkPhysicalDeviceVulkan12Features vulkan12 = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, chain };
 	vulkan12.bufferDeviceAddress = vulkan12.scalarBlockLayout = VK_TRUE;
 	const float priority = 1.0f;
-	VkDeviceQueueCreateInfo queues = { VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, 0, 1, &priority };
-	VkDeviceCreateInfo info = { VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &vulkan12, 0, 1, &queues };
-	info.enabledExtensionCount = std::size(kExtensions);
-	info.ppEnabledExtensionNames = kExtensions;
+	VkDeviceQueueCreateInfo queue_info = { VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, 0, 1, &priority };
+	VkDeviceCreateInfo info = { VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &vulkan12, 0, 1, &queue_info };
+	std::vector<const char*> extensions(std::begin(kExtensions), std::end(kExtensions));
+	if (has_queries)
+		extensions.push_back(VK_KHR_RAY_QUERY_EXTENSION_NAME);
+	info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+	info.ppEnabledExtensionNames = extensions.data();
 	EXPECT_VK(vkCreateDevice(physical, &info, nullptr, &device));
 	if (!device)
 		return false;
@@ -228,138 +221,6 @@ void fullBarrier(VkCommandBuffer commands)
 	VkMemoryBarrier all = { VK_STRUCTURE_TYPE_MEMORY_BARRIER };
 	all.srcAccessMask = all.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
 	vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 1, &all, 0, nullptr, 0, nullptr);
-}
-
-namespace
-{
-
-struct PushConstants
-{
-	VkDeviceAddress hits;
-	float extent;
-};
-
-// Everything that tracing needs, made for one call.
-class Tracer
-{
-public:
-	Tracer(Gpu& gpu, const Structure& scene, const char* closest_hit) : gpu_(gpu)
-	{
-		makeLayouts();
-		makeSet(scene);
-		makePipeline({ "trace.rgen", "trace.rmiss", closest_hit });
-		makeTable();
-	}
-	~Tracer()
-	{
-		vkDestroyPipeline(gpu_.device, pipeline_, nullptr);
-		vkDestroyPipelineLayout(gpu_.device, layout_, nullptr);
-		vkDestroyDescriptorPool(gpu_.device, pool_, nullptr);
-		vkDestroyDescriptorSetLayout(gpu_.device, set_layout_, nullptr);
-	}
-	Tracer(const Tracer&) = delete;
-	Tracer& operator=(const Tracer&) = delete;
-
-	void record(VkCommandBuffer commands, const PushConstants& args, uint32_t side, const std::function<void(VkCommandBuffer)>& between) const
-	{
-		vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline_);
-		vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, layout_, 0, 1, &set_, 0, nullptr);
-		vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_RAYGEN_BIT_KHR, 0, 12, &args);
-		if (between)
-			between(commands);
-		const VkStridedDeviceAddressRegionKHR none = {};
-		gpu_.CmdTraceRaysKHR(commands, &regions_[0], &regions_[1], &regions_[2], &none, side, side, 1);
-	}
-
-private:
-	void makeLayouts()
-	{
-		const VkDescriptorSetLayoutBinding binding = { 0, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1, VK_SHADER_STAGE_RAYGEN_BIT_KHR, nullptr };
-		const VkDescriptorSetLayoutCreateInfo sets = { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, nullptr, 0, 1, &binding };
-		EXPECT_VK(vkCreateDescriptorSetLayout(gpu_.device, &sets, nullptr, &set_layout_));
-		const VkPushConstantRange push = { VK_SHADER_STAGE_RAYGEN_BIT_KHR, 0, 12 };
-		const VkPipelineLayoutCreateInfo info = { VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, nullptr, 0, 1, &set_layout_, 1, &push };
-		EXPECT_VK(vkCreatePipelineLayout(gpu_.device, &info, nullptr, &layout_));
-	}
-	void makeSet(const Structure& scene)
-	{
-		const VkDescriptorPoolSize size = { VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1 };
-		const VkDescriptorPoolCreateInfo pool = { VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO, nullptr, 0, 1, 1, &size };
-		EXPECT_VK(vkCreateDescriptorPool(gpu_.device, &pool, nullptr, &pool_));
-		const VkDescriptorSetAllocateInfo info = { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, nullptr, pool_, 1, &set_layout_ };
-		EXPECT_VK(vkAllocateDescriptorSets(gpu_.device, &info, &set_));
-		const VkWriteDescriptorSetAccelerationStructureKHR structure = { VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR, nullptr,
-																		 1, &scene.handle };
-		const VkWriteDescriptorSet write = { VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,       &structure, set_, 0, 0, 1,
-											 VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR };
-		vkUpdateDescriptorSets(gpu_.device, 1, &write, 0, nullptr);
-	}
-	void makePipeline(const std::array<const char*, 3>& shaders)
-	{
-		constexpr VkShaderStageFlagBits kStages[] = { VK_SHADER_STAGE_RAYGEN_BIT_KHR, VK_SHADER_STAGE_MISS_BIT_KHR,
-													  VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR };
-		std::array<VkPipelineShaderStageCreateInfo, 3> stages = {};
-		std::array<VkRayTracingShaderGroupCreateInfoKHR, 3> groups = {};
-		for (uint32_t i = 0; i < 3; ++i)
-		{
-			const std::vector<uint32_t> words = shaderWords(shaders[i]);
-			const VkShaderModuleCreateInfo module = { VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, nullptr, 0, words.size() * 4, words.data() };
-			stages[i] = { VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, kStages[i], VK_NULL_HANDLE, "main", nullptr };
-			EXPECT_VK(vkCreateShaderModule(gpu_.device, &module, nullptr, &stages[i].module));
-			groups[i] = { VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR,
-						  nullptr,
-						  i < 2 ? VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR : VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR,
-						  i < 2 ? i : VK_SHADER_UNUSED_KHR,
-						  i < 2 ? VK_SHADER_UNUSED_KHR : i,
-						  VK_SHADER_UNUSED_KHR,
-						  VK_SHADER_UNUSED_KHR };
-		}
-		VkRayTracingPipelineClusterAccelerationStructureCreateInfoNV clusters = {
-			VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CLUSTER_ACCELERATION_STRUCTURE_CREATE_INFO_NV, nullptr, VK_TRUE
-		};
-		VkRayTracingPipelineCreateInfoKHR info = { VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR, &clusters };
-		info.stageCount = info.groupCount = 3;
-		info.pStages = stages.data();
-		info.pGroups = groups.data();
-		info.maxPipelineRayRecursionDepth = 1;
-		info.layout = layout_;
-		EXPECT_VK(gpu_.CreateRayTracingPipelinesKHR(gpu_.device, VK_NULL_HANDLE, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_));
-		for (const auto& stage : stages)
-			vkDestroyShaderModule(gpu_.device, stage.module, nullptr);
-	}
-	void makeTable()
-	{
-		const uint32_t handle = gpu_.ray_properties.shaderGroupHandleSize, stride = (handle + 63) / 64 * 64;
-		std::vector<std::byte> handles(size_t(3) * handle);
-		EXPECT_VK(gpu_.GetRayTracingShaderGroupHandlesKHR(gpu_.device, pipeline_, 0, 3, handles.size(), handles.data()));
-		table_ = std::make_unique<Buffer>(gpu_, 3 * stride + 64);
-		const VkDeviceSize start = (64 - table_->address % 64) % 64;
-		for (uint32_t i = 0; i < 3; ++i)
-		{
-			std::memcpy(table_->data + start + i * stride, handles.data() + size_t(i) * handle, handle);
-			regions_[i] = { table_->address + start + i * stride, stride, stride };
-		}
-	}
-
-	Gpu& gpu_;
-	VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
-	VkPipelineLayout layout_ = VK_NULL_HANDLE;
-	VkDescriptorPool pool_ = VK_NULL_HANDLE;
-	VkDescriptorSet set_ = VK_NULL_HANDLE;
-	VkPipeline pipeline_ = VK_NULL_HANDLE;
-	std::unique_ptr<Buffer> table_;
-	std::array<VkStridedDeviceAddressRegionKHR, 3> regions_ = {};
-};
-
-}  // namespace
-
-std::vector<Hit> trace(Gpu& gpu, const Structure& scene, const char* closest_hit, float extent, uint32_t side,
-					   const std::function<void(VkCommandBuffer)>& between)
-{
-	const Tracer tracer(gpu, scene, closest_hit);
-	const Buffer hits(gpu, size_t(side) * side * sizeof(Hit));
-	gpu.run([&](VkCommandBuffer commands) { tracer.record(commands, { hits.address, extent }, side, between); });
-	return hits.read<Hit>(size_t(side) * side);
 }
 
 }  // namespace tessera::test

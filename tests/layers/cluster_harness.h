@@ -44,6 +44,7 @@ public:
 	VkCommandPool pool = VK_NULL_HANDLE;
 	VkPhysicalDeviceClusterAccelerationStructurePropertiesNV cluster_properties = {};
 	VkPhysicalDeviceRayTracingPipelinePropertiesKHR ray_properties = {};
+	bool has_queries = false;
 #define HARNESS_FUNCTION(name) PFN_vk##name name = nullptr;
 	HARNESS_FUNCTIONS(HARNESS_FUNCTION)
 #undef HARNESS_FUNCTION
@@ -107,19 +108,10 @@ private:
 	std::unique_ptr<Buffer> storage_;
 };
 
+// VkResult must be success.
+#define EXPECT_VK(call) EXPECT_EQ(call, VK_SUCCESS)
+
 std::unique_ptr<Structure> topLevel(Gpu& gpu, std::span<const VkAccelerationStructureInstanceKHR> instances);
-
-// As shaders/hit.glsl.
-struct Hit
-{
-	float t, u, v;
-	uint32_t cluster, geometry, primitive, custom, instance;
-};
-
-// A grid of side x side rays straight down on [0, extent]^2. `closest_hit`: a file of the shaders here, without ".spv".
-// `between` records into the same command buffer, when everything is bound and before the rays.
-std::vector<Hit> trace(Gpu& gpu, const Structure& scene, const char* closest_hit, float extent, uint32_t side,
-					   const std::function<void(VkCommandBuffer)>& between = nullptr);
 
 void fullBarrier(VkCommandBuffer commands);
 

@@ -1,5 +1,6 @@
 // Clusters under the layer against a plain structure of the same triangles: rays see the same, and find which cluster it was.
 #include "layers/cluster_scene.h"
+#include "layers/cluster_tracer.h"
 #include "layers/layer_report.h"
 
 #include <gtest/gtest.h>
@@ -151,6 +152,8 @@ TEST(clusterLayer, raysMeetWhatTheyMeetInAPlainStructureAndFindTheCluster)
 		const auto plain = trace(gpu, *plain_scene, "plain.rchit", kExtent, kSide);
 		const auto with_clusters = trace(gpu, *cluster_scene, "cluster.rchit", kExtent, kSide);
 		expectSameHits(plain, with_clusters, idOf, geometryOf);
+		if (gpu.has_queries)
+			expectSameHits(plain, traceByQueries(gpu, *cluster_scene, kExtent, kSide), idOf, geometryOf);
 	});
 	if (!report.device)
 		GTEST_SKIP() << "the device cannot trace rays";

@@ -12,7 +12,7 @@ if(TARGET tessera_cluster_layer)
   set(layer_shaders ${CMAKE_BINARY_DIR}/test_layers/shaders)
   file(MAKE_DIRECTORY ${layer_shaders})
   # Not by tessera_shader: spirv-val 2023.1 does not know the capability.
-  foreach(shader IN ITEMS trace.rgen trace.rmiss plain.rchit cluster.rchit)
+  foreach(shader IN ITEMS trace.rgen trace.rmiss plain.rchit cluster.rchit query.comp)
     add_custom_command(OUTPUT ${layer_shaders}/${shader}.spv
       COMMAND ${TESSERA_glslangValidator} --quiet -V --target-env vulkan1.3 -I${layers}/shaders ${layers}/shaders/${shader} -o ${layer_shaders}/${shader}.spv
       DEPENDS ${layers}/shaders/${shader} ${layers}/shaders/hit.glsl
@@ -20,7 +20,7 @@ if(TARGET tessera_cluster_layer)
     list(APPEND layer_spirv ${layer_shaders}/${shader}.spv)
   endforeach()
   add_custom_target(tessera_layer_test_shaders DEPENDS ${layer_spirv})
-  add_executable(cluster_layer_test ${layers}/cluster_harness.cpp ${layers}/cluster_scene.cpp ${layers}/layer_report.cpp ${layers}/cluster_trace_test.cpp ${layers}/cluster_behaviour_test.cpp
+  add_executable(cluster_layer_test ${layers}/cluster_harness.cpp ${layers}/cluster_tracer.cpp ${layers}/cluster_scene.cpp ${layers}/layer_report.cpp ${layers}/cluster_trace_test.cpp ${layers}/cluster_behaviour_test.cpp ${layers}/cluster_use_test.cpp
     ${layers}/cluster_mistakes.cpp ${layers}/cluster_mistakes_commands_test.cpp ${layers}/cluster_mistakes_clusters_test.cpp ${layers}/cluster_mistakes_structures_test.cpp)
   target_link_libraries(cluster_layer_test PRIVATE tessera_flags tessera_vulkan nlohmann_json::nlohmann_json GTest::gtest_main)
   target_include_directories(cluster_layer_test PRIVATE ${layers}/..)
