@@ -34,6 +34,7 @@ VkResult readReferences(const Operation& operation, std::vector<DriverBuild>& bu
 			continue;
 		checkAlignment(operation, "references", info.clusterReferences, 8, text);
 		const VkDeviceSize bytes = VkDeviceSize(info.clusterReferencesStride) * (info.clusterReferencesCount - 1) + 8;
+		operation.context.hazards.read(info.clusterReferences, bytes, "clusterReferences");
 		if (const auto place = placeOf(operation, "references", info.clusterReferences, bytes, 0, text))
 			numbers[i] = reads.add(*place, bytes);
 	}

@@ -85,6 +85,7 @@ VkResult readArguments(Operation& operation)
 	if (array.size < needed)
 		operation.report().violation("src-infos-size", "{}: srcInfosArray has {} bytes, {} structures of stride {} need {}", operation.name(),
 									 array.size, operation.count, stride, needed);
+	operation.context.hazards.read(array.deviceAddress, needed, "srcInfosArray");
 	const auto place = placeOf(operation, "src-infos", array.deviceAddress, needed, kInputUsage, "srcInfosArray");
 	if (!place)
 	{
@@ -107,6 +108,7 @@ VkResult spoilScratch(const Operation& operation)
 {
 	const VkDeviceAddress address = operation.info.scratchData;
 	checkAlignment(operation, "scratch", address, clusterProperties().clusterScratchByteAlignment, "scratchData");
+	operation.context.hazards.write(address, operation.sizes.scratch, "scratchData");
 	const auto place = placeOf(operation, "scratch", address, operation.sizes.scratch, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "scratchData");
 	if (!place || place->offset % 4 != 0)
 		return VK_SUCCESS;

@@ -30,6 +30,12 @@ std::optional<Place> arrayPlace(const Operation& operation, const char* what, co
 	if (array.size < needed)
 		operation.report().violation(fmt::format("{}-size", what), "{}: {} has {} bytes, {} entries of stride {} need {}", operation.name(), what,
 									 array.size, count, array.stride, needed);
+	const bool read_only =
+		std::string_view(what) == "dst-addresses" && operation.input.mode() == VK_CLUSTER_ACCELERATION_STRUCTURE_OP_MODE_EXPLICIT_DESTINATIONS_NV;
+	if (read_only)
+		operation.context.hazards.read(array.deviceAddress, needed, what);
+	else
+		operation.context.hazards.write(array.deviceAddress, needed, what);
 	return placeOf(operation, what, array.deviceAddress, needed, usage, what);
 }
 
@@ -80,6 +86,7 @@ void placeImplicitly(const Operation& operation, std::span<Product> products)
 	if (!placeOf(operation, "dst-implicit", next, reserved, kStorageUsage, "dstImplicitData"))
 		for (Product& product : products)
 			product = {};
+	operation.context.hazards.write(next, reserved, "dstImplicitData");
 	const Span results = { next, next + reserved };
 	if (results.overlaps({ operation.info.scratchData, operation.info.scratchData + operation.sizes.scratch }))
 		operation.report().violation("scratch-overlap", "{}: dstImplicitData at {:#x} with {} bytes overlaps scratchData at {:#x} with {}",
@@ -133,6 +140,8 @@ VkResult placeExplicitly(const Operation& operation, std::span<Product> products
 		if (!placeOf(operation, "destination", product.address, product.bytes, kStorageUsage, text))
 			product = {};
 	}
+	for (const Product& product : products)
+		operation.context.hazards.write(product.address, product.bytes, "a destination");
 	checkOverlaps(operation, products);
 	return VK_SUCCESS;
 }
@@ -235,7 +244,10 @@ VkResult readRecords(const Operation& operation, std::span<const VkDeviceAddress
 		else if (head->kind != kind)
 			complain(i, fmt::format("a {}", kKinds[std::min<size_t>(size_t(head->kind), 2)]));
 		else
+		{
+			operation.context.hazards.read(addresses[i], head->bytes, wanted);
 			whole.emplace_back(i, bodies.add(*place, head->bytes));
+		}
 	}
 	if (const VkResult result = operation.context.read(bodies); result != VK_SUCCESS)
 		return result;

@@ -74,6 +74,17 @@ constexpr bool allNumbers()
 	return ((std::is_arithmetic_v<Args> || std::is_enum_v<Args>)&&...);
 }
 
+void noteBarrier(Recording& recording, VkPipelineStageFlags from, VkPipelineStageFlags to, VkDependencyFlags, uint32_t count,
+				 const VkMemoryBarrier* barriers, uint32_t buffer_count, const VkBufferMemoryBarrier* buffers, uint32_t, const VkImageMemoryBarrier*)
+{
+	recording.epoch += ordersBuilds(from, to, count, barriers, buffer_count, buffers);
+}
+
+void noteBarrier2(Recording& recording, const VkDependencyInfo* dependency)
+{
+	recording.epoch += ordersBuilds(*dependency);
+}
+
 template <Command kCommand, typename... Args>
 void note(Recording& recording, [[maybe_unused]] PFN_vkVoidFunction next, [[maybe_unused]] Args... args)
 {
@@ -81,6 +92,12 @@ void note(Recording& recording, [[maybe_unused]] PFN_vkVoidFunction next, [[mayb
 		recording.opened_by = kCommandNames[size_t(kCommand)], ++recording.open;
 	else if constexpr (closes(kCommand))
 		--recording.open;
+	else if constexpr (kCommand == Command::PipelineBarrier)
+		noteBarrier(recording, args...);
+	else if constexpr (isOneOf(kCommand, { Command::PipelineBarrier2, Command::PipelineBarrier2KHR }))
+		noteBarrier2(recording, args...);
+	else if constexpr (isOneOf(kCommand, { Command::WaitEvents, Command::WaitEvents2, Command::WaitEvents2KHR }))
+		++recording.epoch;  // events are not looked into
 	else if constexpr (kCommand == Command::BindPipeline)
 		recording.state.bindPipeline(args...);
 	else if constexpr (kCommand == Command::BindDescriptorSets)

@@ -1,6 +1,7 @@
 // How the layer's host code reads and writes device memory: copies on command buffers of its own, submitted and waited for.
 #pragma once
 #include "layer/address_map.h"
+#include "layer/hazards.h"
 #include "layer/memory.h"
 
 #include <cstring>
@@ -91,6 +92,7 @@ struct HostContext
 	Device& device;
 	HostLink& link;
 	VkQueue queue;
+	Hazards& hazards;  // of the command buffer
 
 	VkResult read(Reads& reads) const { return link.read(queue, reads); }
 	VkResult write(const Writes& writes) const { return link.write(queue, writes); }

@@ -118,7 +118,7 @@ void recordHostCommand(Device& device, VkCommandBuffer buffer, HostCommand comma
 	}
 	if (device.set_loader_data)
 		device.set_loader_data(device.handle, next);
-	recording->steps.push_back({ recording->current, std::move(command) });
+	recording->steps.push_back({ recording->current, std::move(command), recording->epoch });
 	recording->current = next;
 	VkCommandBufferBeginInfo begin = { VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO };
 	begin.flags = recording->flags;

@@ -22,6 +22,7 @@ struct Step
 {
 	VkCommandBuffer segment;
 	HostCommand command;
+	uint32_t epoch = 0;  // how many barriers that order builds came before it
 };
 
 struct Recording
@@ -34,6 +35,7 @@ struct Recording
 	BoundState state;
 	int open = 0;  // render passes, queries and the like that have begun and not ended: no segment may end inside one
 	std::string opened_by;
+	uint32_t epoch = 0;
 };
 
 class Recordings

@@ -1,5 +1,6 @@
 // Submission: a batch whose command buffers have work for the host is taken apart, and its pieces are run one after the other.
 #include "layer/device.h"
+#include "layer/sizes.h"
 
 #include <algorithm>
 
@@ -81,15 +82,24 @@ HostLink& linkOf(Device& device, VkQueue queue)
 	return *link;
 }
 
+const char* commandName(const HostCommand& command)
+{
+	const auto* cluster = std::get_if<ClusterCommand>(&command);
+	return cluster ? nameOf(cluster->input.type()) : std::holds_alternative<TopLevelBuild>(command) ? "top-level build" : "copy of a structure";
+}
+
 VkResult runBuffer(const HostContext& context, VkCommandBuffer buffer)
 {
 	const Recording* recording = context.device.recordings.find(buffer);
+	context.hazards = {};
 	if (recording)
 		for (const Step& step : recording->steps)
 		{
 			VkResult result = context.link.submitAndWait(context.queue, step.segment);
+			context.hazards.begin(step.epoch, commandName(step.command));
 			if (result == VK_SUCCESS)
 				result = std::visit([&](const auto& command) { return execute(context, command); }, step.command);
+			context.hazards.end(context.device.report);
 			if (result != VK_SUCCESS)
 				return result;
 		}
@@ -118,7 +128,8 @@ VkResult submitAll(VkQueue queue, uint32_t count, const Submit* submits, VkFence
 	if (!device.active || std::none_of(submits, submits + count, [&](const Submit& submit) { return hasHostCommands(device, submit); }))
 		return submitNext(device, queue, count, submits, fence);
 	const std::lock_guard guard(device.submit_lock);
-	const HostContext context = { device, linkOf(device, queue), queue };
+	Hazards hazards;
+	const HostContext context = { device, linkOf(device, queue), queue, hazards };
 	for (uint32_t i = 0; i < count; ++i)
 	{
 		const VkResult result =

@@ -107,7 +107,10 @@ VkResult checkRecords(const HostContext& context, std::span<const Placed> instan
 	for (const VkDeviceAddress address : seen)
 		if (const BottomLevel* structure = context.device.structures.find(address))
 			if (const auto place = context.device.addresses.find(address, structure->record_bytes, 0))
+			{
+				context.hazards.read(address, structure->record_bytes, "a structure of clusters");
 				numbers.emplace_back(address, reads.add(*place, structure->record_bytes));
+			}
 	const VkResult result = context.read(reads);
 	for (const auto& [address, number] : numbers)
 		if (result == VK_SUCCESS)

@@ -70,7 +70,9 @@ bool Gpu::open(bool feature)
 	queries.rayQuery = VK_TRUE;
 	has_queries = offers(physical, VK_KHR_RAY_QUERY_EXTENSION_NAME);
 	void* chain = has_queries ? static_cast<void*>(&queries) : &rays;
-	VkPhysicalDeviceVulkan12Features vulkan12 = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, chain };
+	VkPhysicalDeviceVulkan13Features vulkan13 = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, chain };
+	vulkan13.maintenance4 = VK_TRUE;  // glslang's workgroup sizes
+	VkPhysicalDeviceVulkan12Features vulkan12 = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &vulkan13 };
 	vulkan12.bufferDeviceAddress = vulkan12.scalarBlockLayout = VK_TRUE;
 	const float priority = 1.0f;
 	VkDeviceQueueCreateInfo queue_info = { VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, 0, 1, &priority };

@@ -37,6 +37,51 @@ TEST(clusterLayer, aFeatureThatIsOffIsNamed)
 	EXPECT_TRUE(report.violations.contains("feature-off"));
 }
 
+namespace
+{
+
+// A cluster's build and its use in one command buffer, with or without a barrier between them.
+Mistake buildAndUse(bool barrier, bool share_scratch)
+{
+	return [=](Stage& stage) {
+		ClusterCommand clusters = stage.clusters(), again = stage.clusters(), bottom = stage.bottomLevels(clusters.resultAddresses());
+		// Its list is written by the first command.
+		argument<BottomLevelInfo>(bottom).clusterReferences = clusters.addresses->address;
+		if (share_scratch)
+			again.info.scratchData = clusters.info.scratchData;
+		stage.gpu.run([&](VkCommandBuffer commands) {
+			clusters.record(commands);
+			if (barrier)
+				fullBarrier(commands);
+			share_scratch ? again.record(commands) : bottom.record(commands);
+		});
+	};
+}
+
+}  // namespace
+
+TEST(clusterLayerNames, aMissingBarrierBeforeABottomLevel)
+{
+	expectNamed("missing-barrier", buildAndUse(false, false));
+}
+
+TEST(clusterLayerNames, aMissingBarrierBetweenCommandsThatShareScratch)
+{
+	expectNamed("missing-barrier", buildAndUse(false, true));
+}
+
+TEST(clusterLayerNames, aBarrierThatIsThereIsNotMissed)
+{
+	for (const bool share_scratch : { false, true })
+	{
+		const LayerReport report = underTheLayer([&](Gpu& gpu) {
+			Stage stage(gpu);
+			buildAndUse(true, share_scratch)(stage);
+		});
+		EXPECT_TRUE(report.violations.empty());
+	}
+}
+
 TEST(clusterLayerNames, aPipelineThatDoesNotAllowClusters)
 {
 	expectNamed("pipeline-without-clusters", [](Stage& stage) { traceWith(stage, { .allow_clusters = false }); });
