@@ -1,8 +1,9 @@
-# tessera_shader(SOURCE... [VARIANT name DEFINES A=1 B ...])
+# tessera_shader(SOURCE... [UNVALIDATED] [VARIANT name DEFINES A=1 B ...])
 #
 # Compiles each SOURCE (a path below shaders/, its suffix names the stage) to SPIR-V for Vulkan 1.3 and validates it:
 #   tessellation/x.comp               -> ${PROJECT_BINARY_DIR}/shaders/tessellation/x.comp.spv
 #   tessellation/x.comp, VARIANT name -> ${PROJECT_BINARY_DIR}/shaders/tessellation/x.comp.name.spv, compiled with DEFINES
+# UNVALIDATED: for what the validator does not know.
 # The target tessera_shaders builds all of them. Touching a header rebuilds only the shaders that include it.
 foreach(tool IN ITEMS glslangValidator spirv-val)
   string(MAKE_C_IDENTIFIER "TESSERA_${tool}" variable)
@@ -15,8 +16,12 @@ endforeach()
 add_custom_target(tessera_shaders ALL)
 
 function(tessera_shader)
-  cmake_parse_arguments(PARSE_ARGV 0 ARG "" "VARIANT" "DEFINES")
+  cmake_parse_arguments(PARSE_ARGV 0 ARG "UNVALIDATED" "VARIANT" "DEFINES")
   list(TRANSFORM ARG_DEFINES PREPEND -D)
+  set(validate COMMAND ${TESSERA_spirv_val} --target-env vulkan1.3 --scalar-block-layout)
+  if(ARG_UNVALIDATED)
+    set(validate COMMAND ${CMAKE_COMMAND} -E true)
+  endif()
   foreach(source IN LISTS ARG_UNPARSED_ARGUMENTS)
     set(name ${source})
     if(ARG_VARIANT)
@@ -29,7 +34,7 @@ function(tessera_shader)
       OUTPUT ${spv}
       COMMAND ${TESSERA_glslangValidator} --quiet -V --target-env vulkan1.3 -I${PROJECT_SOURCE_DIR}/shaders ${ARG_DEFINES}
               ${PROJECT_SOURCE_DIR}/shaders/${source} -o ${spv} --depfile ${spv}.d
-      COMMAND ${TESSERA_spirv_val} --target-env vulkan1.3 --scalar-block-layout ${spv}
+      ${validate} ${spv}
       DEPENDS ${PROJECT_SOURCE_DIR}/shaders/${source}
       DEPFILE ${spv}.d
       COMMENT "Compiling shader ${name}"

@@ -98,7 +98,7 @@ void main()
 	bool overflow = args.counts.at[0].overflow != 0u;
 	uint cluster_count = args.heads.at[LIST_FULL_CLUSTERS].wanted;
 	uint item_count = cluster_count + (HAS_TESSELLATION ? args.heads.at[LIST_BATCHES].wanted : 0u);
-	if (HAS_RAYS)
+	if (HAS_RAYS && EXPANDS_TRIANGLES)
 		deactivateTriangles(overflow ? 0u : args.heads.at[LIST_EXPANDED_TRIANGLES].wanted, !overflow && item_count > 0u);
 	if (overflow)
 		return;

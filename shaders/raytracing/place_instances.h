@@ -1,7 +1,8 @@
 // Instances of the scene that rays are traced through, as builds read them, and the arguments of place_instances.
 #ifndef TESSERA_RAYTRACING_PLACE_INSTANCES_H
 #define TESSERA_RAYTRACING_PLACE_INSTANCES_H
-#include "shared/lang.h"
+#include "raytracing/cluster_lists.h"
+#include "shared/view.h"
 
 SHARED_BEGIN
 
@@ -12,17 +13,22 @@ struct RayInstance
 	vec4 row1;
 	vec4 row2;
 	uint index_and_mask;    // what hits are told, 24 bits; mask << 24
-	uint offset_and_flags;  // of the shader table, 24 bits; flags << 24: none, a triangle is seen from where it runs counter-clockwise
+	uint offset_and_flags;  // of the shader table, 24 bits; RAY_INSTANCE_* << 24
 	uint64_t structure;     // address; 0: inactive
 };
 SHARED_LAYOUT(RayInstance, 64, structure, 56)
 
+// Without it a triangle is seen from where it runs counter-clockwise. VK_GEOMETRY_INSTANCE_TRIANGLE_FLIP_FACING_BIT_KHR.
+#define RAY_INSTANCE_TURNED 2u
+
 struct PlaceInstancesArgs
 {
 	GPU_PTR(RayInstance) instances;
-	uint64_t geometry;  // address of the structure of the frame's micro-triangles
+	uint64_t geometry;                        // address of the structure of the frame's micro-triangles; 0: there are clusters
+	GPU_PTR(InstanceRecord) scene_instances;  // this and the next: 0 without clusters
+	GPU_PTR(ClusterWork) work;
 };
-SHARED_LAYOUT(PlaceInstancesArgs, 16, geometry, 8)
+SHARED_LAYOUT(PlaceInstancesArgs, 32, work, 24)
 
 SHARED_END
 

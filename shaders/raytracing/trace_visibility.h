@@ -8,9 +8,9 @@ SHARED_BEGIN
 struct TraceVisibilityArgs
 {
 	RasterInputs inputs;
-	GPU_PTR(uint) expanded_triangles;
-	uint64_t visibility;  // address of a 64-bit word per pixel: depth << 32 | payload
-	uint first_payload;   // where the payloads begin in expanded_triangles
+	GPU_PTR(uint) payloads;  // expanded_triangles, or those of transient clusters
+	uint64_t visibility;     // address of a 64-bit word per pixel: depth << 32 | payload
+	uint first_payload;      // where they begin
 	uint unused;
 };
 SHARED_LAYOUT(TraceVisibilityArgs, 96, unused, 92)

@@ -10,4 +10,4 @@
 layout(push_constant, scalar) uniform Args { TraceVisibilityArgs args; };
 layout(location = 0) rayPayloadInEXT TracedHit hit;
 
-void main() { hit = TracedHit(gl_HitTEXT, args.expanded_triangles.at[args.first_payload + gl_PrimitiveID]); }
+void main() { hit = TracedHit(gl_HitTEXT, args.payloads.at[args.first_payload + gl_PrimitiveID]); }

@@ -4,6 +4,7 @@
 //   in   part_triangles   DomainTriangle[]   from cluster_classify and triangle_split
 //   out  batches          Batch[]            first part and count; as many as the stage that draws can hold
 //   out  part_places      PartPlace[]        the order of batches; per window what is seen, then what is hidden
+//   out  window_vertices  uint[]             per window: its first micro-vertex, where rays' structures are built from clusters
 //   with occlusion culling:
 //   in   frame_history                       depth pyramids of the frame before and of this one
 //   out  window_seen      uint[]             per window: how many of it are seen
@@ -214,6 +215,8 @@ void batchWindow(uint begin, uint count)
 		if (EXPANDS_TRIANGLES)
 			reserveEntries(args.heads, LIST_EXPANDED_TRIANGLES, sums[BATCH_WINDOW] >> 16);
 	}
+	if (BUILDS_CLUSTERS && lane == 0u)
+		args.window_vertices.at[begin / BATCH_WINDOW] = first_vertex;
 	barrier();
 	if (starts && first_batch + place < args.heads.at[LIST_BATCHES].capacity)
 		args.batches.at[first_batch + place] = Batch(packBatch(begin + lane, end - lane), sums[end] - sums[lane], first_vertex + (sums[lane] & 0xffffu));

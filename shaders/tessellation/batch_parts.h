@@ -23,12 +23,13 @@ struct BatchPartsArgs
 	GPU_PTR(TriangleReach) triangle_reaches;  // per triangle; 0 when nothing is displaced
 	GPU_PTR(ClusterRef) visible_clusters;
 	GPU_PTR(FullCluster) full_clusters;
-	uint most_parts;  // of a batch, at most BATCH_MAX_PARTS
+	GPU_PTR(uint) window_vertices;  // per window: its first micro-vertex; 0 where nothing is built from clusters
+	uint most_parts;                // of a batch, at most BATCH_MAX_PARTS
 	uint most_vertices;
 	uint most_triangles;
 	uint second_phase;  // 1: what was hidden is tested against this frame's pyramid
 };
-SHARED_LAYOUT(BatchPartsArgs, 120, second_phase, 116)
+SHARED_LAYOUT(BatchPartsArgs, 128, second_phase, 124)
 
 SHARED_END
 

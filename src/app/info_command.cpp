@@ -38,7 +38,10 @@ std::string deviceText(const Device& device)
 		fmt::format("device    {}\ndriver    {}\nVulkan    {}\nsubgroup  {}\n", device.name, device.driver, device.api, device.limits.subgroup_size);
 	text += "required  every feature that tessera cannot do without is there\ngates\n";
 	for (const Gate& gate : device.gates.table())
-		text += fmt::format("  {:<32} {}\n", gate.name, gate.open ? std::string("open") : fmt::format("closed: {}", gate.instead));
+		text += fmt::format("  {:<32} {}\n", gate.name,
+							gate.open          ? std::string("open")
+							: gate.why.empty() ? fmt::format("closed: {}", gate.instead)
+											   : fmt::format("closed ({}): {}", gate.why, gate.instead));
 	return text;
 }
 
@@ -74,8 +77,12 @@ Status printJson(const CommandLine& line, const Device& device, const std::optio
 {
 	ordered_json json = { { "schema", 1 }, { "device", deviceJson(device) } };
 	for (const Gate& gate : device.gates.table())
+	{
 		if (!gate.open)
 			json["device"]["instead"][std::string(gate.name)] = gate.instead;
+		if (!gate.open && !gate.why.empty())
+			json["device"]["why_closed"][std::string(gate.name)] = gate.why;
+	}
 	if (info)
 		json["scene"] = sceneJson(info->scene);
 	json["options"] = optionsJson(line.options);

@@ -78,17 +78,47 @@ ordered_json listsJson(const FrameResult& result)
 	return json;
 }
 
-ordered_json raysJson(const RayStats& rays)
+ordered_json clustersJson(const RayClusterStats& clusters)
 {
 	return {
-		{ "triangles", rays.triangles.wanted },
-		{ "reserved_triangles", rays.triangles.capacity },
-		{ "geometry_bytes", rays.geometry_bytes },
-		{ "geometry_used_bytes", rays.geometry_used_bytes },
-		{ "scene_bytes", rays.scene_bytes },
-		{ "scratch_bytes", rays.scratch_bytes },
+		{ "templates", clusters.templates },
+		{ "template_instantiations", clusters.full + clusters.parts },
+		{ "full_clusters", clusters.full },
+		{ "part_triangles", clusters.parts },
+		{ "transient_1x1x1", clusters.units },
+		{ "transient_2x2x2", clusters.groups },
+		{ "structures", clusters.structures },
+		{ "generated_vertices", clusters.generated_vertices },
+		{ "template_bytes", clusters.template_bytes },
+		{ "cluster_bytes", clusters.data_bytes },
+		{ "cluster_used_bytes", clusters.data_used_bytes },
+		{ "structure_bytes", clusters.structure_bytes },
+		{ "structure_used_bytes", clusters.structure_used_bytes },
+		{ "operation_bytes", clusters.operation_bytes },
+	};
+}
+
+ordered_json trianglesJson(const RayStats& rays)
+{
+	return {
+		{ "triangles", rays.triangles.wanted },         { "reserved_triangles", rays.triangles.capacity },
+		{ "geometry_bytes", rays.geometry_bytes },      { "geometry_used_bytes", rays.geometry_used_bytes },
 		{ "build", rays.refitted ? "refit" : "built" },
 	};
+}
+
+ordered_json raysJson(const RunFacts& facts)
+{
+	const RayStats& rays = facts.series.last.rays;
+	const RayPathChoice path = rayPathChoice(facts.input);
+	ordered_json json = {
+		{ "path", path.clusters ? "clusters" : "khr" },
+		{ "path_reason", path.reason },
+		{ "scene_bytes", rays.scene_bytes },
+		{ "scratch_bytes", rays.scratch_bytes },
+	};
+	json.update(rays.clusters.built ? clustersJson(rays.clusters) : trianglesJson(rays));
+	return json;
 }
 
 ordered_json vectorJson(const dvec3& vector)
@@ -190,7 +220,7 @@ ordered_json statsJson(const RunFacts& facts)
 	json["passes"] = passesJson(facts);
 	json["lists"] = listsJson(facts.series.last);
 	if (facts.series.last.rays.traced)
-		json["rays"] = raysJson(facts.series.last.rays);
+		json["rays"] = raysJson(facts);
 	json["memory"] = {
 		{ "lists", facts.memory.lists },   { "geometry", facts.memory.geometry }, { "textures", facts.memory.textures },
 		{ "images", facts.memory.images }, { "rays", facts.memory.rays },         { "total", facts.memory.total() },

@@ -43,8 +43,11 @@ void fillLists(const FrameResources& resources, FrameResult& result)
 		result.lists.push_back({ std::string(list.name), head.wanted, head.capacity, head.peak, head.peak_used, listBytes(list, head.capacity) });
 	}
 	result.rays = resources.rays().stats(resources.head(LIST_EXPANDED_TRIANGLES).wanted);
-	if (result.rays.traced)
+	if (resources.clusters().exists())
+		resources.clusters().addStats(result.rays, resources.head(LIST_MICRO_VERTICES).wanted);
+	else if (result.rays.traced)
 		result.lists.push_back(result.rays.triangles);
+	result.lists.insert(result.lists.end(), result.rays.clusters.lists.begin(), result.rays.clusters.lists.end());
 }
 
 void growNearlyFull(FrameResources& resources, const PlanInput& input)

@@ -82,10 +82,23 @@ Status FrameResources::prepareRays(const FramePlan& plan, const PlanInput& input
 	if (!plan.keeps("ray_scene"))
 	{
 		rays_.drop();
+		clusters_.drop();
 		return {};
 	}
-	const RayInputs inputs = { address("micro_vertices"),        address("expanded_triangles"),        address("ray_instances"),
-							   capacities_[LIST_MICRO_VERTICES], capacities_[LIST_EXPANDED_TRIANGLES], 1 };
+	RayInputs inputs;
+	inputs.instances = address("ray_instances");
+	inputs.micro_vertices = address("micro_vertices");
+	if (kClusters.holds(input))
+	{
+		TRY(clusters_.prepare(scene_, table_, input, address("positions"), *commands_));
+		inputs.instance_count = clusters_.sceneInstances();
+		return rays_.prepare(inputs, input, *bindless_);
+	}
+	clusters_.drop();
+	inputs.expanded_triangles = address("expanded_triangles");
+	inputs.vertex_capacity = capacities_[LIST_MICRO_VERTICES];
+	inputs.triangle_capacity = capacities_[LIST_EXPANDED_TRIANGLES];
+	inputs.instance_count = 1;
 	return rays_.prepare(inputs, input, *bindless_);
 }
 
@@ -113,8 +126,12 @@ Status FrameResources::refit(const PlanInput& before, const PlanInput& after)
 			buffers_.erase(name);
 		images_.clear();
 	}
+	if (buildsClusters(before) != buildsClusters(after))
+		buffers_.erase("ray_instances");
+	const bool same_limits = buildsClusters(before) == buildsClusters(after) && was.most_cluster_mib == is.most_cluster_mib &&
+							 was.most_cluster_vertices == is.most_cluster_vertices;
 	const bool same_lists = was.capacities == is.capacities && was.lists_bytes == is.lists_bytes && chosenRaster(before) == chosenRaster(after) &&
-							tracesRays(before) == tracesRays(after) && (was.rate > 0) == (is.rate > 0);
+							tracesRays(before) == tracesRays(after) && (was.rate > 0) == (is.rate > 0) && same_limits;
 	if (same_lists)
 		return {};
 	capacities_ = capacities;
@@ -123,6 +140,7 @@ Status FrameResources::refit(const PlanInput& before, const PlanInput& after)
 		buffers_.erase(std::string(list.name));
 	buffers_.erase("part_places");
 	buffers_.erase("window_seen");
+	buffers_.erase("window_vertices");
 	buffers_.erase("left_items");
 	return {};
 }
@@ -133,8 +151,10 @@ bool FrameResources::grow(const ListDesc& list, uint32_t wanted, const PlanInput
 	if (!growsOnDemand(list) || !has(name) || (decidingLists(input) >> list.index & 1))
 		return false;
 	uint64_t capacity = std::min<uint64_t>(uint64_t(wanted) * 5 / 4, mostEntries(list));
-	if (list.index == LIST_EXPANDED_TRIANGLES && kRays.holds(input))
+	if (list.index == LIST_EXPANDED_TRIANGLES && kRayTriangles.holds(input))
 		capacity = std::min(capacity, device_.limits.most_structure_triangles);
+	if (list.index == LIST_MICRO_VERTICES && kClusters.holds(input))
+		capacity = std::min<uint64_t>(capacity, input.options.most_cluster_vertices);
 	buffers_.erase(name);
 	auto made = Buffer::create(device_, listBufferBytes(list, static_cast<uint32_t>(capacity)), MemoryKind::Device, name);
 	if (made)
@@ -177,9 +197,33 @@ Result<bool> FrameResources::growDump()
 	return true;
 }
 
-bool FrameResources::raysAreTooSmall()
+Result<bool> FrameResources::raysAreTooSmall(const PlanInput& input)
 {
-	return rays_.exists() && rays_.isTooSmallFor(head(LIST_EXPANDED_TRIANGLES).wanted, counts().overflow == 0);
+	const bool fits = counts().overflow == 0;
+	if (!rays_.exists())
+		return false;
+	if (!clusters_.exists())
+		return rays_.isTooSmallFor(head(LIST_EXPANDED_TRIANGLES).wanted, fits);
+	const bool is_too_small = clusters_.isTooSmall(fits);
+	if (is_too_small && clusters_.dataOverload(input) > 1)
+		TRY(limitVertices(clusters_.dataOverload(input)));
+	return is_too_small;
+}
+
+// Clusters take about as much memory per vertex at every rate; a little less is asked for, so that few turns are taken.
+Status FrameResources::limitVertices(double overload)
+{
+	const ListDesc& list = *findList("micro_vertices");
+	const uint32_t wanted = std::min(head(LIST_MICRO_VERTICES).wanted, capacities_[LIST_MICRO_VERTICES]);
+	const auto capacity = static_cast<uint32_t>(double(wanted) / overload * 15 / 16);
+	if (capacity < list.least_capacity)
+		return badInput("{}: rays' clusters need {:.1f} times the memory that they may take; --max-cluster-data larger, or --rays khr", scene_.path,
+						overload);
+	buffers_.erase("micro_vertices");
+	TRY(allocate("micro_vertices", listBufferBytes(list, capacity)));
+	capacities_[LIST_MICRO_VERTICES] = capacity;
+	fixed_lists_ |= 1u << LIST_MICRO_VERTICES;
+	return makeHeads();
 }
 
 void FrameResources::writeHistory(const View& view, bool makes_pyramid)
@@ -282,7 +326,7 @@ MemoryStats FrameResources::memory() const
 	for (const auto& [name, held] : buffers_)
 	{
 		if (findList(name) || name == "heads" || name == "counts" || name == "rate_steps" || name == "part_places" || name == "window_seen" ||
-			name == "left_items")
+			name == "window_vertices" || name == "left_items")
 			memory.lists += held.bytes();
 		else if (name == "picture" || name == "visibility_buffer" || name == "kept_visibility" || name == "depth_pyramid" ||
 				 name == "sun_visibility" || name == "ambient_visibility")
@@ -298,7 +342,7 @@ MemoryStats FrameResources::memory() const
 		memory.textures += texture.bytes();
 	for (const Buffer& texels : height_texels_)
 		memory.textures += texels.bytes();
-	memory.rays += rays_.stats(0).total();
+	memory.rays += rays_.stats(0).total() + (clusters_.exists() ? clusters_.bytes() : 0);
 	return memory;
 }
 
@@ -309,6 +353,8 @@ void FrameResources::recordCountsReadback(VkCommandBuffer commands) const
 	vkCmdCopyBuffer(commands, buffer("heads").handle(), readback_.handle(), 1, &heads);
 	const VkBufferCopy counts = { 0, LIST_COUNT * sizeof(ListHead), sizeof(FrameCounts) };
 	vkCmdCopyBuffer(commands, buffer("counts").handle(), readback_.handle(), 1, &counts);
+	if (clusters_.exists())
+		clusters_.recordCountsReadback(commands);
 	fullBarrier(commands);
 }
 

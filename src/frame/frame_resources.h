@@ -3,6 +3,7 @@
 #include "frame/dump_layout.h"
 #include "frame/lists.h"
 #include "frame/rate_controller.h"
+#include "frame/ray_clusters.h"
 #include "frame/ray_structures.h"
 #include "frame/stats.h"
 #include "gpu/commands.h"
@@ -38,8 +39,9 @@ public:
 	// must be drawn again. Errors: BadInput (out of memory).
 	Result<bool> growDump();
 	const DumpLayout& dumpLayout() const { return dump_; }
-	// The same for what rays are traced through: true when the last submitted frame had more micro-triangles than that was built of.
-	bool raysAreTooSmall();
+	// The same for what rays are traced through: true when the last submitted frame had more micro-triangles, or clusters, than that was reserved
+	// for. Errors: BadInput (the clusters of even the coarsest frame exceed what they may take).
+	Result<bool> raysAreTooSmall(const PlanInput& input);
 	// Records the uploads of a round. `makes_pyramid`: it writes a depth pyramid. `steps`: candidates of rate_search, empty where the plan has none.
 	Status writeView(const View& view, uint32_t round, bool makes_pyramid, std::span<const RateStep> steps = {});
 	// Records that what follows draws from another camera (drawnFrom).
@@ -66,6 +68,7 @@ public:
 	CommandRecorder& commands() { return *commands_; }
 	MemoryStats memory() const;
 	const RayStructures& rays() const { return rays_; }
+	const RayClusters& clusters() const { return clusters_; }
 
 	// Heads and counts of the last submitted frame; valid after readCounts was recorded and waited for.
 	void recordCountsReadback(VkCommandBuffer commands) const;
@@ -76,12 +79,14 @@ public:
 
 private:
 	FrameResources(Device& device, const BuiltScene& scene, const TessellationTable& table)
-		: device_(device), scene_(scene), table_(table), rays_(device)
+		: device_(device), scene_(scene), table_(table), rays_(device), clusters_(device)
 	{}
 	// Which of the two pyramids is this frame's, and what the frame before it saw.
 	void writeHistory(const View& view, bool makes_pyramid);
 	void dropUnkept(const FramePlan& plan);
 	Status prepareRays(const FramePlan& plan, const PlanInput& input);
+	// Fewer micro-vertices from now on, so that the rate is coarsened until clusters fit into their memory.
+	Status limitVertices(double overload);
 	Status make(std::string_view name, const PlanInput& input);
 	Status upload(std::string_view name, std::span<const std::byte> bytes);
 	Status allocate(std::string_view name, uint64_t bytes);
@@ -106,6 +111,7 @@ private:
 	std::vector<VkSampler> samplers_;
 	std::vector<Buffer> height_texels_;
 	RayStructures rays_;
+	RayClusters clusters_;
 	Buffer readback_;
 	DumpLayout dump_ = kFirstDump;
 	std::array<uint32_t, LIST_COUNT> capacities_ = {};

@@ -331,6 +331,8 @@ Status FrameResources::make(std::string_view name, const PlanInput& input)
 		return allocate(name, uint64_t(capacities_[LIST_PART_TRIANGLES]) * sizeof(PartPlace));
 	if (name == "window_seen")
 		return allocate(name, (uint64_t(capacities_[LIST_PART_TRIANGLES]) / BATCH_WINDOW + 1) * sizeof(uint32_t));
+	if (name == "window_vertices")
+		return allocate(name, (uint64_t(capacities_[LIST_PART_TRIANGLES]) / BATCH_WINDOW + 1) * sizeof(uint32_t));
 	if (name == "left_items")
 		return allocate(name, (uint64_t(capacities_[LIST_BATCHES]) + capacities_[LIST_FULL_CLUSTERS]) * sizeof(uint32_t));
 	if (name == "frame_history")
@@ -342,9 +344,11 @@ Status FrameResources::make(std::string_view name, const PlanInput& input)
 	if (name == "sun_visibility" || name == "ambient_visibility")
 		return allocate(name, uint64_t(input.options.width_px) * input.options.height_px * sizeof(float));
 	if (name == "ray_instances")
-		return allocate(name, sizeof(RayInstance));
-	CHECK(name == "ray_geometry" || name == "ray_scene" || name == "ray_scratch" || name == "heads" || name == "surface" || name == "shading" ||
-			  name == "height_texels",
+		return allocate(name, sizeof(RayInstance) * (kClusters.holds(input) ? scene_.instances.size() : 1));
+	constexpr std::string_view kOfRayClusters[] = { "cluster_templates", "cluster_counts", "instance_clusters", "ray_inputs",
+													"ray_references",    "ray_payloads",   "ray_clusters" };
+	CHECK(std::ranges::find(kOfRayClusters, name) != std::end(kOfRayClusters) || name == "ray_geometry" || name == "ray_scene" ||
+			  name == "ray_scratch" || name == "heads" || name == "surface" || name == "shading" || name == "height_texels",
 		  "nobody makes resource '{}'", name);
 	return {};
 }

@@ -23,6 +23,8 @@ Status checkGates(const Device& device, const PlanInput& input)
 		if (asked && !device.gates.rays())
 			return fail(ExitCode::DeviceCannot, "{}: {} lacks {}; without rays, --raster auto draws everything else", option, device.name,
 						device.gates.acceleration_structure ? "VK_KHR_ray_tracing_pipeline" : "VK_KHR_acceleration_structure");
+	if (options.ray_path == RayPath::Clusters && !device.gates.cluster_acceleration_structure)
+		return fail(ExitCode::DeviceCannot, "--rays clusters: {}: {}; --rays khr needs no clusters", device.name, device.gates.why_no_clusters);
 	if (options.width_px == 0 || options.height_px == 0 || std::max(options.width_px, options.height_px) > device.limits.max_image_extent)
 		return fail(ExitCode::Usage, "--size {}x{}: {} can draw from 1x1 to {}x{}", options.width_px, options.height_px, device.name,
 					device.limits.max_image_extent, device.limits.max_image_extent);

@@ -76,6 +76,8 @@ Capacities defaultCapacities(const PlanInput& input)
 	Capacities capacities = {};
 	for (const ListDesc& list : kLists)
 		capacities[list.index] = usefulEntries(list, list.default_capacity, input);
+	if (kClusters.holds(input))
+		capacities[LIST_MICRO_VERTICES] = std::min(capacities[LIST_MICRO_VERTICES], input.options.most_cluster_vertices);
 	return withAsked(capacities, input);
 }
 
@@ -179,7 +181,7 @@ uint64_t bytesOfLists(const std::array<uint32_t, LIST_COUNT>& capacities, const 
 	}
 	if (tessellates)
 		bytes += kMostRateSteps * sizeof(RateStep) + uint64_t(capacities[LIST_PART_TRIANGLES]) * sizeof(PartPlace) + 16 +
-				 (uint64_t(capacities[LIST_PART_TRIANGLES]) / BATCH_WINDOW + 1) * sizeof(uint32_t) + 16;
+				 (uint64_t(capacities[LIST_PART_TRIANGLES]) / BATCH_WINDOW + 1) * sizeof(uint32_t) + 16;  // window_seen, or window_vertices
 	if (tessellates && usesSoft(input) && (input.device.most_small_rate_px > 0 || input.forces(kSmallFirst)))
 		bytes += (uint64_t(capacities[LIST_BATCHES]) + capacities[LIST_FULL_CLUSTERS]) * sizeof(uint32_t) + 16;
 	return bytes;

@@ -43,6 +43,11 @@ uint64_t PassContext::tracedGeometry() const
 	return resources_.rays().geometryAddress();
 }
 
+const RayClusters& PassContext::clusters() const
+{
+	return resources_.clusters();
+}
+
 void PassContext::build(std::string_view structure) const
 {
 	const auto& uses = step_.pass->uses;

@@ -11,6 +11,7 @@ namespace tessera
 {
 
 class FrameResources;
+class RayClusters;
 
 class PassContext
 {
@@ -31,7 +32,9 @@ public:
 	uint32_t rateStepCount() const;
 	uint32_t tracedTriangles() const;  // that the frame's structure is built of, inactive ones included
 	uint64_t tracedGeometry() const;   // device address of that structure
-	uint32_t decidingLists() const;    // bit per list whose capacity limits the rate
+	const RayClusters& clusters() const;
+	VkCommandBuffer commands() const { return commands_; }
+	uint32_t decidingLists() const;  // bit per list whose capacity limits the rate
 
 	// Arguments go into the push constants of every stage.
 	template <typename Args>

@@ -48,7 +48,7 @@ StageAccess stageAccessOf(Access access)
 				 VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT };
 	case Access::BuildRead:
 		return { VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR,
-				 VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR };
+				 VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT };
 	case Access::BuildWrite:
 		return { VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR,
 				 VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR | VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR };
@@ -170,7 +170,8 @@ Result<const Shader*> PassRunner::shader(std::string_view name)
 
 Result<PassRunner::PipelineKey> PassRunner::keyOf(const PassDesc& pass, const FramePlan& plan)
 {
-	PipelineKey key = { pass.shaders.empty() ? std::string_view() : pass.shaders.front(), {} };
+	// Passes may share a compute shader; those of several shaders may share the first and differ in others.
+	PipelineKey key = { pass.shaders.size() > 1 ? pass.name : pass.shaders.empty() ? std::string_view() : pass.shaders.front(), {} };
 	for (std::string_view name : pass.shaders)
 	{
 		TRY(load(name, shaders_));

@@ -43,7 +43,7 @@ private:
 		std::set<uint32_t> constants;
 	};
 	using LoadedShaders = std::map<std::string, LoadedShader, std::less<>>;
-	// First shader (passes may share one) and the constants that its pipeline reads.
+	// Shader, or pass where there are several, and the constants that its pipeline reads.
 	using PipelineKey = std::pair<std::string_view, Constants>;
 	using Pipelines = std::map<PipelineKey, Pipeline>;
 

@@ -24,9 +24,14 @@ uint32_t roundedUp(uint64_t triangles)
 Status RayStructures::prepare(const RayInputs& inputs, const PlanInput& input, BindlessSet& bindless)
 {
 	inputs_ = inputs;
-	reserve(input);
-	reserved_ = std::min(reserved_, inputs.triangle_capacity);
-	TRY(makeGeometry(input));
+	if (inputs.expanded_triangles != 0)
+	{
+		reserve(input);
+		reserved_ = std::min(reserved_, inputs.triangle_capacity);
+		TRY(makeGeometry(input));
+	}
+	else
+		dropGeometry();
 	TRY(makeScene(bindless));
 	return makeScratch();
 }
@@ -73,7 +78,8 @@ Status RayStructures::makeScene(BindlessSet& bindless)
 // One for both builds, which a barrier parts.
 Status RayStructures::makeScratch()
 {
-	const StructureBuild::Sizes geometry = geometry_build_->sizes(device_), scene = scene_build_->sizes(device_);
+	const StructureBuild::Sizes geometry = geometry_build_ ? geometry_build_->sizes(device_) : StructureBuild::Sizes(),
+								scene = scene_build_->sizes(device_);
 	const uint64_t bytes =
 		scratchBytes(device_, std::max({ geometry.build_scratch_bytes, geometry.update_scratch_bytes, scene.build_scratch_bytes }));
 	if (scratch_ && scratch_.bytes() >= bytes && scratch_.bytes() <= 2 * bytes)
@@ -83,14 +89,20 @@ Status RayStructures::makeScratch()
 	return {};
 }
 
-void RayStructures::drop()
+void RayStructures::dropGeometry()
 {
 	geometry_build_.reset();
-	scene_build_.reset();
 	geometry_ = {};
+	can_refit_ = refits_ = false;
+	reserved_ = 0;
+}
+
+void RayStructures::drop()
+{
+	dropGeometry();
+	scene_build_.reset();
 	scene_ = {};
 	scratch_ = {};
-	can_refit_ = false;
 }
 
 void RayStructures::reserve(const PlanInput& input)
@@ -138,6 +150,10 @@ RayStats RayStructures::stats(uint32_t wanted) const
 		return {};
 	RayStats stats;
 	stats.traced = true;
+	stats.scene_bytes = scene_.bytes();
+	stats.scratch_bytes = scratch_.bytes();
+	if (!geometry_build_)
+		return stats;
 	stats.refitted = refits_;
 	stats.triangles = { "ray_geometry", wanted, geometry_build_->count(), peak_, peak_used_, geometry_.bytes() };
 	const auto bytes_for = [&](uint32_t count) {
@@ -145,8 +161,6 @@ RayStats RayStructures::stats(uint32_t wanted) const
 	};
 	stats.geometry_bytes = geometry_.bytes();
 	stats.geometry_used_bytes = bytes_for(std::min(wanted, geometry_build_->count()));
-	stats.scene_bytes = scene_.bytes();
-	stats.scratch_bytes = scratch_.bytes();
 	return stats;
 }
 

@@ -17,7 +17,8 @@ constexpr uint32_t kFirstTriangles = 64u * 1024;
 // Addresses that a build reads, and what they can hold.
 struct RayInputs
 {
-	uint64_t micro_vertices = 0, expanded_triangles = 0, instances = 0;
+	uint64_t micro_vertices = 0, instances = 0;
+	uint64_t expanded_triangles = 0;  // 0: instances are of structures from elsewhere (ray_clusters.h), so that only the scene is built
 	uint32_t vertex_capacity = 0, triangle_capacity = 0, instance_count = 0;
 };
 
@@ -49,6 +50,7 @@ public:
 private:
 	void reserve(const PlanInput& input);
 	Status makeGeometry(const PlanInput& input);
+	void dropGeometry();
 	Status makeScene(BindlessSet& bindless);
 	Status makeScratch();
 

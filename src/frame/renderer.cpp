@@ -267,7 +267,8 @@ private:
 		TRY(runner_->readTimes());
 		addTimes(*runner_, plan_, result_);
 		judge(attempt_);
-		grew_ |= resources_->raysAreTooSmall();
+		TRY_ASSIGN(const bool rays_are_too_small, resources_->raysAreTooSmall(input_));
+		grew_ |= rays_are_too_small;
 		addCounts(*resources_, result_.counts);
 		if (!outcome_.fits || grew_)
 			return {};

@@ -77,6 +77,13 @@ uint64_t ofTriangles(const PlanInput& input)
 	return static_cast<uint64_t>(double(std::min<uint64_t>(input.scene.instanced_triangles, kFirstTriangles)) * (input.device.*bytes_per_triangle));
 }
 
+// Of the clusters that such a frame has, 32 triangles each.
+template <uint64_t bytes>
+uint64_t ofFirstClusters(const PlanInput& input)
+{
+	return std::min<uint64_t>(input.scene.instanced_triangles, kFirstTriangles) / 32 * bytes;
+}
+
 constexpr ResourceDesc kResources[] = {
 	{ "positions", "attribute", perVertex<12> },
 	{ "normals", "attribute", perVertex<12> },
@@ -149,7 +156,25 @@ constexpr ResourceDesc kResources[] = {
 	{ "micro_vertices", "list", ofList<LIST_MICRO_VERTICES> },
 	{ "expanded_triangles", "list", ofList<LIST_EXPANDED_TRIANGLES> },
 	{ "indexed_draw", "buffer", fixedBytes<20> },
-	{ "ray_instances", "list", fixedBytes<sizeof(RayInstance)> },
+	{ "ray_instances", "list",
+	  [](const PlanInput& input) -> uint64_t {
+		  return (kClusters.holds(input) ? input.sizes.instances : 1) * sizeof(RayInstance);
+	  } },
+	{ "window_vertices", "list",
+	  [](const PlanInput& input) -> uint64_t {
+		  return (ofList<LIST_PART_TRIANGLES>(input) / sizeof(DomainTriangle) / BATCH_WINDOW + 1) * sizeof(uint32_t);
+	  } },
+	// What the driver asks for is known when they are made: about as much per triangle as for structures of triangles.
+	{ "cluster_templates", "buffer",
+	  [](const PlanInput& input) -> uint64_t {
+		  return static_cast<uint64_t>(double(input.sizes.triangles + 2 * input.sizes.table_triangles) * input.device.structure_triangle_bytes);
+	  } },
+	{ "cluster_counts", "list", fixedBytes<sizeof(ClusterCounts)> },
+	{ "instance_clusters", "list", perInstance<sizeof(InstanceClusters)> },
+	{ "ray_inputs", "list", ofFirstClusters<sizeof(InstantiationInfo) + sizeof(DeviceAddress) + sizeof(ClusterPlace)> },
+	{ "ray_references", "list", ofFirstClusters<sizeof(DeviceAddress)> },
+	{ "ray_payloads", "list", ofFirstClusters<sizeof(uint32_t)> },
+	{ "ray_clusters", "structure", ofTriangles<&DeviceTraits::structure_triangle_bytes> },
 	{ "ray_geometry", "structure", ofTriangles<&DeviceTraits::structure_triangle_bytes> },
 	{ "ray_scene", "structure",
 	  [](const PlanInput& input) -> uint64_t {

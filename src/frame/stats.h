@@ -23,6 +23,23 @@ struct ListStats
 	uint64_t bytes = 0;
 };
 
+// What was built of clusters for rays.
+struct RayClusterStats
+{
+	bool built = false;
+	uint64_t templates = 0;           // made at load
+	uint64_t full = 0, parts = 0;     // made from templates: full clusters, and part triangles
+	uint64_t units = 0, groups = 0;   // transient clusters: of triangles of factor 1, and of parts with factors up to 2
+	uint64_t structures = 0;          // bottom-level
+	uint64_t generated_vertices = 0;  // micro-vertices that all of them are made of
+	uint64_t template_bytes = 0;
+	uint64_t data_bytes = 0, data_used_bytes = 0;            // of clusters: reserved, and taken at their largest sizes
+	uint64_t structure_bytes = 0, structure_used_bytes = 0;  // of bottom-level structures: reserved, and taken; within operation_bytes
+	uint64_t operation_bytes = 0;  // lists, inputs, scratch memory, and the bottom-level structures, which lie where inputs did
+	std::vector<ListStats> lists;
+	uint64_t total() const { return template_bytes + data_bytes + operation_bytes; }
+};
+
 // What rays were traced through.
 struct RayStats
 {
@@ -32,7 +49,8 @@ struct RayStats
 	uint64_t geometry_bytes = 0;       // reserved
 	uint64_t geometry_used_bytes = 0;  // what the driver asks for as many as the frame has
 	uint64_t scene_bytes = 0, scratch_bytes = 0;
-	uint64_t total() const { return geometry_bytes + scene_bytes + scratch_bytes; }
+	RayClusterStats clusters;
+	uint64_t total() const { return geometry_bytes + scene_bytes + scratch_bytes + clusters.total(); }
 };
 
 struct FrameCountsRead

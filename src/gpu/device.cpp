@@ -179,6 +179,8 @@ struct DeviceBuilder
 		DeviceFeatures features;
 		TRY(features.query(device.physical, device.name));
 		device.gates = features.gates();
+		if (device.gates.cluster_acceleration_structure)
+			device.limits.clusters = clusterLimitsOf(device.physical);
 		device.gates.debug_names = hasInstanceExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
 
 		const float priority = 1;
@@ -223,6 +225,13 @@ struct DeviceBuilder
 			load(device, functions.ray_tracing_group_handles, "vkGetRayTracingShaderGroupHandlesKHR");
 			load(device, functions.trace_rays, "vkCmdTraceRaysKHR");
 		}
+#ifdef VK_NV_cluster_acceleration_structure
+		if (device.gates.cluster_acceleration_structure)
+		{
+			load(device, device.functions.cluster_structure_sizes, "vkGetClusterAccelerationStructureBuildSizesNV");
+			load(device, device.functions.build_cluster_structures, "vkCmdBuildClusterAccelerationStructureIndirectNV");
+		}
+#endif
 		if (device.pipeline_statistics)
 		{
 			load(device, device.functions.executable_properties, "vkGetPipelineExecutablePropertiesKHR");

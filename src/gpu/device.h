@@ -24,6 +24,14 @@ struct DeviceRequest
 	std::function<bool(VkInstance, VkPhysicalDevice, uint32_t family)> can_present;
 };
 
+// Of cluster acceleration structures; all 0 where the device has none.
+struct ClusterLimits
+{
+	uint32_t vertices = 0, triangles = 0;  // most of a cluster
+	// Of addresses, bytes:
+	uint32_t scratch_alignment = 0, cluster_alignment = 0, template_alignment = 0, structure_alignment = 0;
+};
+
 struct DeviceLimits
 {
 	uint32_t subgroup_size = 0;
@@ -41,6 +49,7 @@ struct DeviceLimits
 	// Of acceleration structures and ray tracing pipelines; 0 where the device has none.
 	uint32_t scratch_alignment = 0;  // of a build's scratch memory
 	uint64_t most_structure_triangles = 0, most_structure_instances = 0;
+	ClusterLimits clusters;
 	uint32_t shader_group_handle_bytes = 0;
 	uint32_t shader_group_alignment = 0;  // of every region of a shader binding table
 	double timestamp_ns = 0;              // per tick; 0: no timestamps

@@ -9,6 +9,9 @@
 namespace tessera
 {
 
+// What the frame's transient clusters need of a cluster (raytracing/cluster_lists.h), and those of the scene and the table.
+constexpr uint32_t kLeastMostVertices = 192, kLeastMostTriangles = 128;
+
 bool DeviceFeatures::has(const char* extension) const
 {
 	return std::any_of(available_.begin(), available_.end(), [&](const auto& p) { return std::strcmp(p.extensionName, extension) == 0; });
@@ -36,6 +39,10 @@ Status DeviceFeatures::query(VkPhysicalDevice physical, const std::string& devic
 		if (has(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME))
 			rays_.pNext = std::exchange(vulkan13_.pNext, &rays_);
 	}
+#ifdef VK_NV_cluster_acceleration_structure
+	if (has(VK_NV_CLUSTER_ACCELERATION_STRUCTURE_EXTENSION_NAME))
+		clusters_.pNext = std::exchange(vulkan13_.pNext, &clusters_);
+#endif
 	vkGetPhysicalDeviceFeatures2(physical, &core_);
 	VkPhysicalDeviceFloatControlsProperties floats = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES };
 	VkPhysicalDeviceProperties2 properties2 = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &floats };
@@ -62,8 +69,51 @@ Status DeviceFeatures::query(VkPhysicalDevice physical, const std::string& devic
 	if (!missing.empty())
 		return fail(ExitCode::DeviceCannot, "{}: lacks {}", device_name, missing);
 	openGates();
+	gates_.why_no_clusters = whyNoClusters(physical);
+	gates_.cluster_acceleration_structure = gates_.why_no_clusters.empty();
 	return {};
 }
+
+#ifdef VK_NV_cluster_acceleration_structure
+
+std::string_view DeviceFeatures::whyNoClusters(VkPhysicalDevice physical) const
+{
+	if (!has(VK_NV_CLUSTER_ACCELERATION_STRUCTURE_EXTENSION_NAME))
+		return "the device lacks VK_NV_cluster_acceleration_structure";
+	if (!clusters_.clusterAccelerationStructure)
+		return "the driver knows VK_NV_cluster_acceleration_structure, but this device cannot do it";
+	if (!gates_.rays())
+		return "the device lacks VK_KHR_ray_tracing_pipeline";
+	const ClusterLimits limits = clusterLimitsOf(physical);
+	if (limits.vertices < kLeastMostVertices || limits.triangles < kLeastMostTriangles)
+		return "the device's clusters are too small: 192 vertices and 128 triangles are needed";
+	return {};
+}
+
+ClusterLimits clusterLimitsOf(VkPhysicalDevice physical)
+{
+	VkPhysicalDeviceClusterAccelerationStructurePropertiesNV clusters = {
+		VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CLUSTER_ACCELERATION_STRUCTURE_PROPERTIES_NV
+	};
+	VkPhysicalDeviceProperties2 properties = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &clusters };
+	vkGetPhysicalDeviceProperties2(physical, &properties);
+	return { clusters.maxVerticesPerCluster, clusters.maxTrianglesPerCluster,       clusters.clusterScratchByteAlignment,
+			 clusters.clusterByteAlignment,  clusters.clusterTemplateByteAlignment, clusters.clusterBottomLevelByteAlignment };
+}
+
+#else
+
+std::string_view DeviceFeatures::whyNoClusters(VkPhysicalDevice) const
+{
+	return "tessera was built with Vulkan headers that do not know VK_NV_cluster_acceleration_structure";
+}
+
+ClusterLimits clusterLimitsOf(VkPhysicalDevice)
+{
+	return {};
+}
+
+#endif
 
 void DeviceFeatures::openGates()
 {
@@ -74,7 +124,6 @@ void DeviceFeatures::openGates()
 	gates_.acceleration_structure = structures_.accelerationStructure;
 	gates_.ray_tracing_pipeline = rays_.rayTracingPipeline;
 	gates_.ray_query = has(VK_KHR_RAY_QUERY_EXTENSION_NAME);
-	gates_.cluster_acceleration_structure = has("VK_NV_cluster_acceleration_structure");
 	gates_.fragment_barycentric = has("VK_KHR_fragment_shader_barycentric");
 	gates_.pipeline_statistics = has(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
 	gates_.conditional_rendering = has(VK_EXT_CONDITIONAL_RENDERING_EXTENSION_NAME);
@@ -105,6 +154,14 @@ const void* DeviceFeatures::enabledChain(bool pipeline_statistics)
 	}
 	if (gates_.rays())
 		enableRays();
+#ifdef VK_NV_cluster_acceleration_structure
+	if (gates_.cluster_acceleration_structure)
+	{
+		enabled_clusters_.clusterAccelerationStructure = VK_TRUE;
+		enabled_clusters_.pNext = std::exchange(enabled13_.pNext, &enabled_clusters_);
+		extensions_.push_back(VK_NV_CLUSTER_ACCELERATION_STRUCTURE_EXTENSION_NAME);
+	}
+#endif
 	if (pipeline_statistics && gates_.pipeline_statistics)
 	{
 		enabled_statistics_.pipelineExecutableInfo = VK_TRUE;

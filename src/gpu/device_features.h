@@ -9,6 +9,7 @@ namespace tessera
 {
 
 class Device;
+struct ClusterLimits;
 
 class DeviceFeatures
 {
@@ -26,6 +27,8 @@ private:
 	bool has(const char* extension) const;
 	void openGates();
 	void enableRays();
+	// Why rays' structures cannot be built from clusters; empty when they can.
+	std::string_view whyNoClusters(VkPhysicalDevice physical) const;
 
 	std::vector<VkExtensionProperties> available_;
 	std::vector<const char*> extensions_;
@@ -37,6 +40,14 @@ private:
 	VkPhysicalDeviceMeshShaderFeaturesEXT mesh_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT };
 	VkPhysicalDeviceAccelerationStructureFeaturesKHR structures_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR };
 	VkPhysicalDeviceRayTracingPipelineFeaturesKHR rays_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR };
+#ifdef VK_NV_cluster_acceleration_structure
+	VkPhysicalDeviceClusterAccelerationStructureFeaturesNV clusters_ = {
+		VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CLUSTER_ACCELERATION_STRUCTURE_FEATURES_NV
+	};
+	VkPhysicalDeviceClusterAccelerationStructureFeaturesNV enabled_clusters_ = {
+		VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CLUSTER_ACCELERATION_STRUCTURE_FEATURES_NV
+	};
+#endif
 	VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR enabled_statistics_ = {
 		VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR
 	};
@@ -47,6 +58,9 @@ private:
 	VkPhysicalDeviceAccelerationStructureFeaturesKHR enabled_structures_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR };
 	VkPhysicalDeviceRayTracingPipelineFeaturesKHR enabled_rays_ = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR };
 };
+
+// What the device allows of clusters; all 0 where it has none.
+ClusterLimits clusterLimitsOf(VkPhysicalDevice physical);
 
 // Fills in name, driver, API version and limits of a chosen physical device.
 void describeDevice(Device& device);

@@ -11,7 +11,8 @@ struct Gate
 {
 	std::string_view name;  // key in the stats
 	bool open = false;
-	std::string_view instead;  // what is done while it is closed
+	std::string_view instead;   // what is done while it is closed
+	std::string_view why = {};  // it is closed, where that is not plain from its name
 };
 
 // What a device offers beyond the requirements.
@@ -25,6 +26,7 @@ struct DeviceGates
 	bool ray_tracing_pipeline = false;
 	bool ray_query = false;
 	bool cluster_acceleration_structure = false;
+	std::string_view why_no_clusters = "the device lacks VK_NV_cluster_acceleration_structure";  // while that is closed
 	bool fragment_barycentric = false;
 	bool conditional_rendering = false;
 	bool pipeline_statistics = false;  // registers and shared memory of a pipeline, as the driver compiled it

@@ -88,6 +88,15 @@ Result<Pipeline> makeRayPipeline(Device& device, CommandRecorder& commands, VkPi
 	}
 	const Groups groups = groupsOf(stages);
 	VkRayTracingPipelineCreateInfoKHR info = { VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR };
+#ifdef VK_NV_cluster_acceleration_structure
+	VkRayTracingPipelineClusterAccelerationStructureCreateInfoNV clusters = {
+		VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CLUSTER_ACCELERATION_STRUCTURE_CREATE_INFO_NV
+	};
+	// Also where this pipeline's rays meet no clusters yet: another frame's may.
+	clusters.allowClusterAccelerationStructure = VK_TRUE;
+	if (device.gates.cluster_acceleration_structure)
+		info.pNext = &clusters;
+#endif
 	info.stageCount = static_cast<uint32_t>(stages.size());
 	info.pStages = stages.data();
 	info.groupCount = kGroupCount;

@@ -26,6 +26,10 @@ struct ExtensionFunctions
 	PFN_vkCreateRayTracingPipelinesKHR create_ray_tracing_pipelines = nullptr;
 	PFN_vkGetRayTracingShaderGroupHandlesKHR ray_tracing_group_handles = nullptr;
 	PFN_vkCmdTraceRaysKHR trace_rays = nullptr;
+#ifdef VK_NV_cluster_acceleration_structure
+	PFN_vkGetClusterAccelerationStructureBuildSizesNV cluster_structure_sizes = nullptr;
+	PFN_vkCmdBuildClusterAccelerationStructureIndirectNV build_cluster_structures = nullptr;
+#endif
 	PFN_vkGetPipelineExecutablePropertiesKHR executable_properties = nullptr;
 	PFN_vkGetPipelineExecutableStatisticsKHR executable_statistics = nullptr;
 	PFN_vkSetDebugUtilsObjectNameEXT set_object_name = nullptr;

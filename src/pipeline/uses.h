@@ -22,6 +22,9 @@ constexpr auto joinUses(const std::array<Use, counts>&... groups)
 	return all;
 }
 
+// What a compute workgroup has at least, about: so many items of a loop keep each thread busy once.
+constexpr uint32_t kThreadsOfAnyGroup = 32;
+
 // What evaluating micro-vertices reads.
 constexpr std::array<Use, 19> surfaceUses(Access access)
 {

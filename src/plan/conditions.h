@@ -77,6 +77,25 @@ inline bool tracesRays(const PlanInput& input)
 	return usesRt(input) || tracesLight(input);
 }
 
+// What rays are traced through is built from, and why.
+struct RayPathChoice
+{
+	bool clusters;
+	std::string_view reason;
+};
+inline RayPathChoice rayPathChoice(const PlanInput& input)
+{
+	if (input.options.ray_path == RayPath::Triangles)
+		return { false, "asked for" };
+	if (!input.device.clusters)
+		return { false, input.device.why_no_clusters };
+	return { true, input.options.ray_path == RayPath::Clusters ? "asked for" : "the device builds from clusters and templates" };
+}
+inline bool buildsClusters(const PlanInput& input)
+{
+	return tracesRays(input) && input.device.rays && rayPathChoice(input).clusters;
+}
+
 // Culling that is possible beside the rays of this frame. A caster out of view must be there, whatever side it shows to the eye; what rays are
 // traced through is built once, before anything is seen.
 inline CullOptions culling(const PlanInput& input)
@@ -182,9 +201,31 @@ inline constexpr Condition kSidesInFragments = {
 inline constexpr Condition kRays = { [](const PlanInput& input) { return tracesRays(input) && input.device.rays; },
 									 "no rays are traced, or the device lacks acceleration structures or ray tracing pipelines", nullptr,
 									 kTracesNothing };
+// What they are traced through: one or the other.
+inline constexpr Condition kClusters = { buildsClusters, "no rays are traced, the device lacks VK_NV_cluster_acceleration_structure, or --rays khr",
+										 nullptr, kTracesNothing };
+inline constexpr Condition kRayTriangles = { [](const PlanInput& input) { return kRays.holds(input) && !buildsClusters(input); },
+											 "no rays are traced, or what they are traced through is built from clusters", nullptr, kTracesNothing };
+inline constexpr Condition kClusterParts = { [](const PlanInput& input) { return buildsClusters(input) && kTessellates.holds(input); },
+											 "nothing is built from clusters, or nothing is tessellated", nullptr, kTracesNothing };
+inline constexpr Condition kTransients = {
+	[](const PlanInput& input) { return kClusterParts.holds(input) && (input.options.transient_units || input.options.transient_groups); },
+	"nothing is built from clusters, nothing is tessellated, or --transient-1x1x1 and --transient-2x2x2 are off", nullptr, kTracesNothing
+};
+inline constexpr Condition kTransientUnits = { [](const PlanInput& input) { return kClusterParts.holds(input) && input.options.transient_units; },
+											   "nothing is built from clusters, or --transient-1x1x1 is off", nullptr, kTracesNothing };
+inline constexpr Condition kTransientGroups = { [](const PlanInput& input) { return kClusterParts.holds(input) && input.options.transient_groups; },
+												"nothing is built from clusters, or --transient-2x2x2 is off", nullptr, kTracesNothing };
 inline constexpr Condition kRt = { [](const PlanInput& input) { return usesRt(input) && input.device.rays; },
 								   "another producer of visibility is chosen, or the device lacks acceleration structures or ray tracing pipelines",
 								   nullptr, kTracesNothing };
+inline constexpr Condition kRtTriangles = { [](const PlanInput& input) { return kRt.holds(input) && !buildsClusters(input); },
+											"another producer of visibility is chosen, or rays are traced through clusters", nullptr,
+											kTracesNothing };
+inline constexpr Condition kRtClusters = {
+	[](const PlanInput& input) { return kRt.holds(input) && buildsClusters(input); },
+	"another producer of visibility is chosen, the device lacks VK_NV_cluster_acceleration_structure, or --rays khr", nullptr, kTracesNothing
+};
 inline constexpr Condition kShadows = { [](const PlanInput& input) { return tracesShadows(input) && input.device.rays; },
 										"--shadows is off, the view shows no light, or the device cannot trace rays" };
 inline constexpr Condition kAmbientOcclusion = { [](const PlanInput& input) { return tracesAmbient(input) && input.device.rays; },
@@ -196,16 +237,17 @@ inline constexpr Condition kRtMixedSidesOfParts = { [](const PlanInput& input) {
 // Micro-vertices and indices in memory: for those who do not evaluate their own.
 inline constexpr Condition kKeepsVertices = { [](const PlanInput& input) { return kDraws.holds(input) || kRays.holds(input); },
 											  "raster_micro evaluates its own vertices, and nothing else needs any", nullptr, kIsAnAlternative };
-inline constexpr Condition kExpands = { [](const PlanInput& input) { return usesIndexed(input) || kRays.holds(input); },
-										"nothing is drawn by indices, and no rays are traced", nullptr, kIsAnAlternative };
+inline constexpr Condition kExpands = { [](const PlanInput& input) { return usesIndexed(input) || kRayTriangles.holds(input); },
+										"nothing is drawn by indices, and no rays are traced, or through clusters", nullptr, kIsAnAlternative };
 // Every cluster of the scene is drawn as stored: then each has a place of its own in what is expanded, and what rays are traced through can be
 // refitted. (Mesh shaders find clusters at the places that they took when they were listed.)
 inline constexpr Condition kKeepsPlaces = { [](const PlanInput& input) {
-											   return kRays.holds(input) && !kTessellates.holds(input) && !culling(input).any() &&
+											   return kRayTriangles.holds(input) && !kTessellates.holds(input) && !culling(input).any() &&
 													  input.view.rounds == 1 && !usesMesh(input);
 										   },
-											"no rays are traced, something is tessellated, culled or drawn in rounds, or mesh shaders draw", nullptr,
-											kTracesNothing };
+											"no rays are traced, or through clusters, something is tessellated, culled or drawn in rounds, or mesh "
+											"shaders draw",
+											nullptr, kTracesNothing };
 inline constexpr Condition kPrimitiveId = { [](const PlanInput& input) { return input.device.fragment_primitive_id; },
 											"the device lacks primitive ids in fragment shaders (geometryShader) or 32-bit indices" };
 inline constexpr Condition kColorTextures = { [](const PlanInput& input) { return input.scene.has_color_textures; },

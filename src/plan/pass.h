@@ -56,6 +56,9 @@ struct DeviceTraits
 	bool rays = false;                  // acceleration structures and ray tracing pipelines
 	// What the driver asks for, about: for structures per triangle and per instance, and for scratch memory per triangle.
 	double structure_triangle_bytes = 0, structure_instance_bytes = 0, structure_scratch_bytes = 0;
+	// Those structures can be built from clusters and templates, or why not.
+	bool clusters = false;
+	std::string_view why_no_clusters = "the device lacks VK_NV_cluster_acceleration_structure";
 };
 
 // What the host knows of the view before it is drawn.

@@ -26,6 +26,27 @@ inline constexpr std::string_view rasterName(Raster raster)
 	return kRasterNames[static_cast<uint8_t>(raster)];
 }
 
+// What a frame's rays are traced through is built from.
+enum class RayPath : uint8_t
+{
+	Auto,
+	Clusters,   // clusters and templates (VK_NV_cluster_acceleration_structure)
+	Triangles,  // all micro-triangles at once (VK_KHR_acceleration_structure)
+};
+inline constexpr std::string_view kRayPathNames[] = { "auto", "clusters", "khr" };
+
+// What a driver is told of a build.
+enum class BuildPreference : uint8_t
+{
+	Default,
+	FastBuild,
+	FastTrace,
+};
+inline constexpr std::string_view kBuildPreferenceNames[] = { "default", "fast-build", "fast-trace" };
+
+constexpr uint32_t kLeastClusterVertices = 8192;  // those of CLUSTER_GROUP_SIZE clusters
+constexpr uint32_t kMostTruncatedBits = 22;       // of a position's mantissa, which has 23
+
 // Order shared with shaders/shading/shade.h (VIEW_*).
 enum class ViewMode : uint8_t
 {
@@ -70,6 +91,14 @@ struct RenderOptions
 	bool shadows = false;           // of the sun, by rays
 	uint32_t ao_samples = 0;        // rays per pixel for ambient occlusion; 0: none
 	float ao_radius_world = 0;      // what is farther does not occlude; 0: a tenth of the scene's radius
+	RayPath ray_path = RayPath::Auto;
+	// Where rays' structures are built from clusters:
+	bool transient_units = true;   // triangles of factor 1 in mixed clusters are built together, else each as its pattern
+	bool transient_groups = true;  // so are triangles of factors up to 2
+	BuildPreference transient_build = BuildPreference::Default;
+	uint32_t truncated_bits = 0;                // of positions' mantissas; 0 is exact
+	uint32_t most_cluster_mib = 1024;           // memory of a frame's clusters
+	uint32_t most_cluster_vertices = 1u << 24;  // micro-vertices of a frame
 	uint32_t width_px = 1920;
 	uint32_t height_px = 1080;
 	std::map<std::string, uint32_t> capacities;  // by list name

@@ -26,7 +26,7 @@ static void record(PassContext& pass)
 	args.batches = pass.address("batches");
 	args.vertices = pass.address("micro_vertices");
 	args.indices = pass.address("expanded_triangles");
-	args.traced_triangles = kRays.holds(pass.input()) ? pass.tracedTriangles() : 0;
+	args.traced_triangles = kRayTriangles.holds(pass.input()) ? pass.tracedTriangles() : 0;
 	pass.dispatchLoop(args, uint64_t(pass.capacity("batches")) + pass.capacity("full_clusters"));
 }
 

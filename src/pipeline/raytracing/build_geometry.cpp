@@ -16,7 +16,7 @@ static void record(PassContext& pass)
 	pass.build("ray_geometry");
 }
 
-static constexpr const Condition* kNeeded[] = { &kRays };
+static constexpr const Condition* kNeeded[] = { &kRayTriangles };
 
 // The bottom-level structure of the frame's micro-triangles; the driver builds it.
 const PassDesc kBuildGeometry = { "build_geometry", kUses, kNeeded, {}, nullptr, record };

@@ -1,5 +1,6 @@
 #include "raytracing/place_instances.h"
 
+#include "frame/ray_clusters.h"
 #include "pipeline/passes.h"
 #include "pipeline/uses.h"
 
@@ -7,13 +8,26 @@ namespace tessera
 {
 
 static constexpr Use kUses[] = {
+	{ "instances", Access::ComputeRead, &kClusters },
+	{ "instance_clusters", Access::ComputeRead, &kClusters },
+	{ "ray_references", Access::ComputeRead, &kClusters },
+	{ "cluster_counts", Access::ComputeWrite, &kClusters },
 	{ "ray_instances", Access::ComputeWrite },
 };
 
 static void record(PassContext& pass)
 {
-	const PlaceInstancesArgs args = { pass.address("ray_instances"), pass.tracedGeometry() };
-	pass.dispatch(args, 1);
+	PlaceInstancesArgs args = {};
+	args.instances = pass.address("ray_instances");
+	if (!kClusters.holds(pass.input()))
+	{
+		args.geometry = pass.tracedGeometry();
+		pass.dispatch(args, 1);
+		return;
+	}
+	args.scene_instances = pass.address("instances");
+	args.work = pass.clusters().work();
+	pass.dispatchLoop(args, pass.clusters().sceneInstances(), kThreadsOfAnyGroup);
 }
 
 static constexpr const Condition* kNeeded[] = { &kRays };

@@ -23,6 +23,7 @@ static constexpr Use kUses[] = {
 	{ "batches", Access::ComputeWrite },
 	{ "part_places", Access::ComputeWrite },
 	{ "window_seen", Access::ComputeWrite, &kPartsMayHide },
+	{ "window_vertices", Access::ComputeWrite, &kClusterParts },
 };
 
 static void record(PassContext& pass)

@@ -17,6 +17,8 @@ inline BatchPartsArgs batchPartsArgs(const PassContext& pass)
 	args.batches = pass.address("batches");
 	args.part_places = pass.address("part_places");
 	args.window_seen = pass.address("window_seen");
+	if (kClusterParts.holds(pass.input()))
+		args.window_vertices = pass.address("window_vertices");
 	args.instances = pass.address("instances");
 	args.clusters = pass.address("clusters");
 	args.cluster_bounds = pass.address("cluster_bounds");
