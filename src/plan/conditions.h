@@ -219,9 +219,12 @@ inline constexpr Condition kTransientGroups = { [](const PlanInput& input) { ret
 inline constexpr Condition kRt = { [](const PlanInput& input) { return usesRt(input) && input.device.rays; },
 								   "another producer of visibility is chosen, or the device lacks acceleration structures or ray tracing pipelines",
 								   nullptr, kTracesNothing };
-inline constexpr Condition kRtTriangles = { [](const PlanInput& input) { return kRt.holds(input) && !buildsClusters(input); },
-											"another producer of visibility is chosen, or rays are traced through clusters", nullptr,
-											kTracesNothing };
+inline constexpr Condition kRtTriangles = {
+	[](const PlanInput& input) { return kRt.holds(input) && !buildsClusters(input); },
+	"another producer of visibility is chosen, the device lacks acceleration structures or ray tracing pipelines, or rays are "
+	"traced through clusters",
+	nullptr, kTracesNothing
+};
 inline constexpr Condition kRtClusters = {
 	[](const PlanInput& input) { return kRt.holds(input) && buildsClusters(input); },
 	"another producer of visibility is chosen, the device lacks VK_NV_cluster_acceleration_structure, or --rays khr", nullptr, kTracesNothing

@@ -479,6 +479,57 @@ TEST(framePlan, raysFindVisibilityInPlaceOfRasterisers)
 	EXPECT_FALSE(featureOn(plan, "HAS_OCCLUSION"));
 }
 
+const std::vector<std::string> kClusterPasses = { "clear_clusters",       "list_clusters",    "list_structures", "insert_clusters",
+												  "instantiate_clusters", "build_transients", "build_structures" };
+
+TEST(framePlan, raysGoThroughClustersWhereTheDeviceBuildsThem)
+{
+	PlanInput input = fullInput();
+	input.device.rays = input.device.clusters = true;
+	input.options.raster = Raster::Rt;
+	FramePlan plan = planOf(input);
+	for (const std::string& pass : kClusterPasses)
+		EXPECT_TRUE(plan.has(pass)) << pass;
+	EXPECT_TRUE(plan.has("trace_clusters") && plan.has("place_instances") && plan.has("build_scene"));
+	expectDropped(plan, { "build_geometry", "trace_visibility" });
+	expectLeftOut(plan, { "expanded_triangles" });
+	EXPECT_TRUE(featureOn(plan, "BUILDS_CLUSTERS") && featureOn(plan, "HAS_TRANSIENT_UNITS") && featureOn(plan, "HAS_TRANSIENT_GROUPS"));
+	EXPECT_FALSE(featureOn(plan, "EXPANDS_TRIANGLES"));
+	input.options.transient_units = input.options.transient_groups = false;
+	plan = planOf(input);
+	expectDropped(plan, { "build_transients" });
+	expectLeftOut(plan, { "ray_payloads" });
+	input.options.rate = 0;
+	plan = planOf(input);
+	EXPECT_TRUE(plan.has("instantiate_clusters")) << "full clusters are made from templates, too";
+	expectLeftOut(plan, { "window_vertices" });
+	EXPECT_FALSE(featureOn(plan, "KEEPS_PLACES")) << "nothing is refitted";
+}
+
+TEST(framePlan, clustersAreLeftOutWithTheReason)
+{
+	PlanInput input = fullInput();
+	input.device.rays = true;
+	input.options.raster = Raster::Rt;
+	for (const bool asked_for : { false, true })
+	{
+		input.device.clusters = asked_for;
+		input.options.ray_path = asked_for ? RayPath::Triangles : RayPath::Auto;
+		const FramePlan plan = planOf(input);
+		for (const std::string& pass : kClusterPasses)
+			EXPECT_FALSE(plan.has(pass)) << pass;
+		EXPECT_NE(plan.reason("list_clusters").find("device lacks VK_NV_cluster_acceleration_structure"), std::string::npos);
+		EXPECT_TRUE(plan.has("build_geometry") && plan.has("trace_visibility"));
+		EXPECT_FALSE(featureOn(plan, "BUILDS_CLUSTERS"));
+		EXPECT_EQ(rayPathChoice(input).reason, asked_for ? "asked for" : "the device lacks VK_NV_cluster_acceleration_structure");
+	}
+	input.options = {};
+	input.device.clusters = true;
+	const FramePlan without = planOf(input);
+	for (const std::string& pass : kClusterPasses)
+		EXPECT_FALSE(without.has(pass)) << pass << ": no rays are traced";
+}
+
 TEST(framePlan, lightKeepsWhatCullingWouldRemove)
 {
 	PlanInput input = fullInput();
@@ -509,7 +560,7 @@ TEST(framePlan, raysOfADeviceThatHasNoneAreRefusedWithTheReason)
 
 TEST(framePlan, everyAccessOfRaysIsOrderedToo)
 {
-	for (uint32_t i = 0; i < 256; ++i)
+	for (uint32_t i = 0; i < 1024; ++i)
 	{
 		const auto bit = [&](uint32_t b) {
 			return (i >> b & 1u) != 0;
@@ -524,6 +575,8 @@ TEST(framePlan, everyAccessOfRaysIsOrderedToo)
 		input.scene.has_double_sided = bit(5);
 		input.view.split_levels = bit(6) ? 3 : 0;
 		input.options.view = bit(7) ? ViewMode::Shaded : ViewMode::Clusters;
+		input.device.clusters = bit(8);
+		input.options.transient_units = input.options.transient_groups = bit(9);
 		const FramePlan plan = planOf(input);
 		ASSERT_TRUE(plan.everyReadHasAnEarlierWriteAndABarrier(input)) << i;
 		ASSERT_TRUE(everyConflictIsOrdered(plan, input)) << i;

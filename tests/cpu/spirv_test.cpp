@@ -3,6 +3,8 @@
 #include "culling/cluster_cull.h"
 #include "raster/dump_micro.h"
 #include "raster/evaluate_vertices.h"
+#include "raytracing/list_clusters.h"
+#include "raytracing/place_instances.h"
 #include "shading/shade.h"
 #include "spirv_module.h"
 #include "tessellation/rate_fit.h"
@@ -117,6 +119,16 @@ HostLayout viewLayout()
 	return layout;
 }
 
+HostLayout clusterWorkLayout()
+{
+	HostLayout layout = LAYOUT(12, ClusterWork, counts, instances, templates, transient_units, instantiations, instantiation_destinations,
+							   instantiation_places, transients, transient_destinations, transient_places, vertices, indices);
+	const HostLayout rest = LAYOUT(13, ClusterWork, payloads, references, structures, structure_addresses, structure_bytes, data, reserved,
+								   unit_bytes, scene_clusters, scene_instances, truncated_bits, geometry, unused);
+	layout.fields.insert(layout.fields.end(), rest.fields.begin(), rest.fields.end());
+	return layout;
+}
+
 // Records that several stages share, member by member.
 std::vector<HostLayout> hostLayouts()
 {
@@ -153,6 +165,16 @@ std::vector<HostLayout> hostLayouts()
 		LAYOUT(2, FactorRule, table_size, max_split),
 		LAYOUT(5, DumpVertex, displaced, normal, owner, u, v),
 		LAYOUT(2, DumpTriangle, corners, payload),
+		LAYOUT(5, InstantiationInfo, id, geometry, source, vertices, vertex_bytes),
+		LAYOUT(11, TransientInfo, id, flags, counts, geometry, strides, more_strides, indices, vertices, geometries, micromaps, micromap_indices),
+		LAYOUT(3, StructureInfo, count, stride, clusters),
+		LAYOUT(3, ClusterTemplate, address, units, counts),
+		LAYOUT(2, ClusterPlace, instance, place),
+		LAYOUT(4, InstanceClusters, count, first, structure, unused),
+		LAYOUT(7, ClusterCounts, wanted, built_instantiations, built_transients, structures, references, structure_units, unused),
+		clusterWorkLayout(),
+		LAYOUT(7, ListClustersArgs, inputs, heads, counts, full_clusters, window_vertices, vertices, work),
+		LAYOUT(6, RayInstance, row0, row1, row2, index_and_mask, offset_and_flags, structure),
 		LAYOUT(4, DumpItem, first_vertex, vertex_count, first_triangle, triangle_count),
 		LAYOUT(7, DumpHead, items, vertices, triangles, item_capacity, vertex_capacity, triangle_capacity, unused),
 	};
