@@ -34,9 +34,9 @@ layout(constant_id = 31) const bool HAS_DISPLACED_EDGES = true;
 layout(constant_id = 14) const bool READS_BUFFER = true;
 layout(constant_id = 24) const bool HAS_RAYS = true;
 layout(constant_id = 27) const bool KEEPS_PLACES = false;
-layout(constant_id = 42) const bool BUILDS_CLUSTERS = false;
-layout(constant_id = 43) const bool HAS_TRANSIENT_UNITS = true;
-layout(constant_id = 44) const bool HAS_TRANSIENT_GROUPS = true;
+layout(constant_id = 50) const bool BUILDS_CLUSTERS = false;
+layout(constant_id = 51) const bool HAS_TRANSIENT_UNITS = true;
+layout(constant_id = 52) const bool HAS_TRANSIENT_GROUPS = true;
 layout(constant_id = 25) const bool HAS_SHADOWS = true;
 layout(constant_id = 26) const bool HAS_AMBIENT_OCCLUSION = true;
 
