@@ -44,8 +44,9 @@ std::string tightLists(const FrameResult& result)
 std::string coarseningText(const FrameResult& result)
 {
 	const std::string granted = result.every_factor_one ? "every factor is 1" : fmt::format("{:.4g} was granted", result.rate_granted);
-	return fmt::format("the rate was coarsened: {:.4g} pixels per segment were asked for, {} ({}; --capacity and --budget make lists larger)",
-					   result.rate_wanted, granted, tightLists(result));
+	return fmt::format("the rate was coarsened: {:.4g} pixels per segment were asked for, {} ({}; --capacity and --budget make lists larger{})",
+					   result.rate_wanted, granted, tightLists(result),
+					   result.rays.clusters.built ? "; --max-cluster-data and --max-cluster-vertices those of rays" : "");
 }
 
 // The path of --camera-path, or the one camera.

@@ -81,6 +81,7 @@ TEST(clusterReserve, whatDoesNotFitIsReservedForTheNextAttempt)
 	EXPECT_EQ(reserve.peakUsed()[RESERVED_TRANSIENTS], 0u) << "nothing of it was built";
 	reserve.follow(least, most);
 	EXPECT_GE(reserve.reserved()[RESERVED_TRANSIENTS], 5000u);
+	EXPECT_EQ(reserve.peak()[RESERVED_TRANSIENTS], 0u) << "of the new one";
 	EXPECT_FALSE(reserve.isTooSmallFor(wanted, true));
 	EXPECT_EQ(reserve.peakUsed()[RESERVED_TRANSIENTS], 5000u);
 	wanted[RESERVED_DATA] = 9000;

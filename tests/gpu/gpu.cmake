@@ -20,6 +20,15 @@ foreach(name IN ITEMS primary_test light_test)
   gtest_discover_tests(gpu_ray_${name} PROPERTIES LABELS gpu)
 endforeach()
 
+# Rays through clusters, under the layer that emulates them.
+if(TARGET tessera_cluster_layer)
+  add_executable(gpu_ray_clusters_test ${here}/raytracing/clusters_test.cpp ${here}/raytracing/cluster_test.cpp)
+  target_link_libraries(gpu_ray_clusters_test PRIVATE gpu_test_base tessera_verify nlohmann_json::nlohmann_json)
+  target_compile_definitions(gpu_ray_clusters_test PRIVATE TESSERA_LAYERS="$<TARGET_FILE_DIR:tessera_cluster_layer>")
+  add_dependencies(gpu_ray_clusters_test tessera_shaders tessera_cluster_layer)
+  gtest_discover_tests(gpu_ray_clusters_test PROPERTIES LABELS gpu)
+endif()
+
 # Runs both the checks in this process and the program.
 foreach(name IN ITEMS verify_test verify_slow_test)
   add_executable(gpu_${name} ${here}/${name}.cpp ${here}/../cpu/program_run.cpp)
