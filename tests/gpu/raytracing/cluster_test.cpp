@@ -30,7 +30,7 @@ LayerDevice& processDevice()
 		setenv("VK_ADD_LAYER_PATH", TESSERA_LAYERS, 1);
 		setenv("TESSERA_CLUSTER_LAYER_REPORT", layer.report.c_str(), 1);
 		setenv("TESSERA_CLUSTER_LAYER_ABORT", "1", 1);
-		auto device = Device::create({});
+		auto device = Device::create({ .name = "", .validate = true });
 		if (device)
 			layer.device = std::move(*device);
 		else
@@ -70,6 +70,13 @@ void ClusterTest::SetUp()
 	if (!clusterDevice().gates.rays())
 		GTEST_SKIP() << "the device cannot trace rays";
 	ASSERT_TRUE(clusterDevice().gates.cluster_acceleration_structure) << clusterDevice().gates.why_no_clusters;
+}
+
+void ClusterTest::TearDown()
+{
+	if (!processDevice().device)
+		return;
+	EXPECT_EQ(clusterDevice().validationMessages(), 0u) << "the validation layer stands below the other";
 }
 
 Device& clusterDevice()

@@ -12,6 +12,7 @@ class ClusterTest : public testing::Test
 {
 protected:
 	void SetUp() override;
+	void TearDown() override;
 };
 
 // The process's device under the layer; only within a ClusterTest.
