@@ -77,12 +77,12 @@ void placeImplicitly(const Operation& operation, std::span<Product> products)
 			product.address = next + used;
 			used += product.bytes;
 		}
-	// Not what is used, but what the query said: the program does not know what will be used.
+	// Not what is used, but what the query said: the program does not know what will be used. More than that takes another violation.
 	const bool moves = operation.input.type() == VK_CLUSTER_ACCELERATION_STRUCTURE_OP_TYPE_MOVE_OBJECTS_NV;
-	const VkDeviceSize reserved = moves ? used : operation.sizes.structures;
-	if (used > operation.sizes.structures)
-		operation.report().violation(moves ? "max-moved-bytes" : "results-above-queried", "{}: results have {} bytes, {} is {}", operation.name(),
-									 used, moves ? "maxMovedBytes" : "the queried size", operation.sizes.structures);
+	const VkDeviceSize reserved = moves ? used : std::max(used, operation.sizes.structures);
+	if (moves && used > operation.input.move.maxMovedBytes)
+		operation.report().violation("max-moved-bytes", "{}: results have {} bytes, maxMovedBytes is {}", operation.name(), used,
+									 operation.input.move.maxMovedBytes);
 	if (!placeOf(operation, "dst-implicit", next, reserved, kStorageUsage, "dstImplicitData"))
 		for (Product& product : products)
 			product = {};

@@ -79,8 +79,13 @@ void checkInput(Device& device, const ClusterInput& input, const char* where)
 		checkType(report, where, "pClustersBottomLevel", input.bottom_level.sType,
 				  VK_STRUCTURE_TYPE_CLUSTER_ACCELERATION_STRUCTURE_CLUSTERS_BOTTOM_LEVEL_INPUT_NV, input.bottom_level.pNext);
 		break;
-	default:
+	case VK_CLUSTER_ACCELERATION_STRUCTURE_OP_TYPE_BUILD_TRIANGLE_CLUSTER_NV:
+	case VK_CLUSTER_ACCELERATION_STRUCTURE_OP_TYPE_BUILD_TRIANGLE_CLUSTER_TEMPLATE_NV:
+	case VK_CLUSTER_ACCELERATION_STRUCTURE_OP_TYPE_INSTANTIATE_TRIANGLE_CLUSTER_NV:
 		checkTriangles(device, input, where);
+		break;
+	default:
+		break;  // named already
 	}
 }
 

@@ -16,12 +16,12 @@ VkDeviceSize triangleStructures(const ClusterInput& input)
 {
 	const RecordKind kind = kindOf(input);
 	const auto& limits = input.triangles;
-	const bool per_triangle = limits.maxClusterUniqueGeometryCount > 1;
+	// Whether triangles have geometry indices and flags of their own stands in the arguments only.
 	const auto bytes = [&](uint64_t triangles, uint64_t vertices) {
-		return kind == RecordKind::Template ? templateBytes(triangles, vertices, per_triangle) : clusterBytes(triangles, vertices, per_triangle);
+		return kind == RecordKind::Template ? templateBytes(triangles, vertices, true) : clusterBytes(triangles, vertices, true);
 	};
 	const VkDeviceSize count = input.info.maxAccelerationStructureCount, alignment = alignmentOf(kind);
-	const VkDeviceSize head = bytes(0, 0) + (alignment - 1) + (per_triangle ? 0 : sizeof(uint32_t));
+	const VkDeviceSize head = bytes(0, 0) + (alignment - 1) + sizeof(uint32_t);
 	const VkDeviceSize by_totals = count * head + bytes(limits.maxTotalTriangleCount, limits.maxTotalVertexCount);
 	const VkDeviceSize by_each = count * alignUp(bytes(limits.maxClusterTriangleCount, limits.maxClusterVertexCount), alignment);
 	return alignUp(std::min(by_totals, by_each), alignment);

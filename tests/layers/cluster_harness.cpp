@@ -71,6 +71,7 @@ bool Gpu::open(bool feature)
 	has_queries = offers(physical, VK_KHR_RAY_QUERY_EXTENSION_NAME);
 	void* chain = has_queries ? static_cast<void*>(&queries) : &rays;
 	VkPhysicalDeviceVulkan13Features vulkan13 = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, chain };
+	vulkan13.dynamicRendering = VK_TRUE;
 	vulkan13.maintenance4 = VK_TRUE;  // glslang's workgroup sizes
 	VkPhysicalDeviceVulkan12Features vulkan12 = { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &vulkan13 };
 	vulkan12.bufferDeviceAddress = vulkan12.scalarBlockLayout = VK_TRUE;
@@ -207,13 +208,13 @@ Structure::~Structure()
 	gpu_.DestroyAccelerationStructureKHR(gpu_.device, handle, nullptr);
 }
 
-std::unique_ptr<Structure> topLevel(Gpu& gpu, std::span<const VkAccelerationStructureInstanceKHR> instances)
+std::unique_ptr<Structure> topLevel(Gpu& gpu, std::span<const VkAccelerationStructureInstanceKHR> instances, VkDeviceAddress wrong_address)
 {
 	Buffer data(gpu, std::vector(instances.begin(), instances.end()));
 	VkAccelerationStructureGeometryKHR geometry = { VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR };
 	geometry.geometryType = VK_GEOMETRY_TYPE_INSTANCES_KHR;
 	geometry.geometry.instances = { VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR };
-	geometry.geometry.instances.data.deviceAddress = data.address;
+	geometry.geometry.instances.data.deviceAddress = wrong_address ? wrong_address : data.address;
 	const VkAccelerationStructureBuildRangeInfoKHR range = { static_cast<uint32_t>(instances.size()), 0, 0, 0 };
 	return std::make_unique<Structure>(gpu, VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, std::span(&geometry, 1), std::span(&range, 1));
 }

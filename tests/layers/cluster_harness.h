@@ -111,7 +111,8 @@ private:
 // VkResult must be success.
 #define EXPECT_VK(call) EXPECT_EQ(call, VK_SUCCESS)
 
-std::unique_ptr<Structure> topLevel(Gpu& gpu, std::span<const VkAccelerationStructureInstanceKHR> instances);
+// Of these instances; `wrong_address`: told to be there instead.
+std::unique_ptr<Structure> topLevel(Gpu& gpu, std::span<const VkAccelerationStructureInstanceKHR> instances, VkDeviceAddress wrong_address = 0);
 
 void fullBarrier(VkCommandBuffer commands);
 

@@ -178,6 +178,22 @@ TEST(clusterLayerNames, aGeometryBufferThatIsNone)
 	expectNamed("geometry-buffer-range", wrongCluster([](auto& c) { argument<ClusterInfo>(c).geometryIndexAndFlagsBuffer = 0x2000; }));
 }
 
+TEST(clusterLayerNames, aGeometryBufferNotAligned)
+{
+	expectNamed("geometry-buffer-alignment", [](Stage& stage) {
+		const Buffer geometry(stage.gpu, std::vector<uint32_t>(kPatchTriangles + 1));
+		ClusterCommand command = stage.clusters();
+		argument<ClusterInfo>(command).geometryIndexAndFlagsBuffer = geometry.address + 2;
+		argument<ClusterInfo>(command).baseGeometryIndexAndGeometryFlags.geometryIndex = 0;
+		command.run();
+	});
+}
+
+TEST(clusterLayerNames, aGeometryStrideBetweenIndices)
+{
+	expectNamed("geometry-stride", wrongCluster([](auto& c) { argument<ClusterInfo>(c).geometryIndexAndFlagsBufferStride = 6; }));
+}
+
 TEST(clusterLayerNames, indicesNotAligned)
 {
 	expectNamed("index-buffer-alignment", [](Stage& stage) {

@@ -1,12 +1,10 @@
-// Seeded mistakes in what all cluster commands share: arrays, counts, scratch, destinations, moves.
+// Seeded mistakes in what all cluster commands share: arguments, counts, scratch, types and modes.
 #include "layers/cluster_mistakes.h"
 
 #include <gtest/gtest.h>
 
 namespace tessera::test
 {
-
-// What all commands share.
 
 TEST(clusterLayerNames, aStrideBelowTheStructure)
 {
@@ -75,6 +73,14 @@ TEST(clusterLayerNames, aCountNotAligned)
 				}));
 }
 
+TEST(clusterLayerNames, aCountInABufferOfOtherUse)
+{
+	expectNamed("src-count-usage", wrongCluster([](auto& c) {
+					replace(c.count, c.gpu, VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR);
+					c.info.srcInfosCount = c.count->address;
+				}));
+}
+
 TEST(clusterLayerNames, scratchTooSmall)
 {
 	expectNamed("scratch-range", wrongCluster([](auto& c) {
@@ -107,68 +113,6 @@ TEST(clusterLayerNames, scratchWithinTheResults)
 				}));
 }
 
-TEST(clusterLayerNames, noPlaceForResults)
-{
-	expectNamed("dst-implicit-range", wrongCluster([](auto& c) { c.info.dstImplicitData = 0x100; }));
-}
-
-TEST(clusterLayerNames, resultsBeyondTheirBuffer)
-{
-	expectNamed("dst-implicit-range", wrongCluster([](auto& c) { c.info.dstImplicitData += 512; }));
-}
-
-TEST(clusterLayerNames, resultsNotAligned)
-{
-	expectNamed("dst-implicit-alignment", wrongCluster([](auto& c) {
-					c.makeRoom();
-					c.info.dstImplicitData += 64;
-				}));
-}
-
-TEST(clusterLayerNames, resultsInABufferOfOtherUse)
-{
-	expectNamed("dst-implicit-usage", wrongCluster([](auto& c) {
-					replace(c.results, c.gpu, VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR);
-					c.info.dstImplicitData = alignedStart(*c.results);
-				}));
-}
-
-TEST(clusterLayerNames, addressesTooClose)
-{
-	expectNamed("dst-addresses-stride", wrongCluster([](auto& c) { c.info.dstAddressesArray.stride = 4; }));
-}
-
-TEST(clusterLayerNames, addressesBeyondTheirArray)
-{
-	expectNamed("dst-addresses-size", wrongCluster([](auto& c) { c.info.dstAddressesArray.size = 8; }));
-}
-
-TEST(clusterLayerNames, addressesInABufferOfOtherUse)
-{
-	expectNamed("dst-addresses-usage", wrongCluster([](auto& c) {
-					replace(c.addresses, c.gpu, VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR);
-					c.info.dstAddressesArray.deviceAddress = c.addresses->address;
-				}));
-}
-
-TEST(clusterLayerNames, sizesTooClose)
-{
-	expectNamed("dst-sizes-stride", wrongCluster([](auto& c) { c.info.dstSizesArray.stride = 2; }));
-}
-
-TEST(clusterLayerNames, sizesInNoBuffer)
-{
-	expectNamed("dst-sizes-range", wrongCluster([](auto& c) { c.info.dstSizesArray.deviceAddress = 0x20; }));
-}
-
-TEST(clusterLayerNames, noPlaceForSizes)
-{
-	expectNamed("dst-sizes-null", wrongCluster([](auto& c) {
-					c.info.input.opMode = kComputeSizes;
-					c.info.dstSizesArray = {};
-				}));
-}
-
 TEST(clusterLayerNames, aStructureOfAnotherType)
 {
 	expectNamed("struct-type", wrongCluster([](auto& c) { c.info.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO; }));
@@ -197,89 +141,44 @@ TEST(clusterLayerNames, anAddressByAWrongAddress)
 				}));
 }
 
-// Explicit destinations.
-
-TEST(clusterLayerNames, aDestinationNotAligned)
+TEST(clusterLayerNames, anAddressByAnAddressNotAligned)
 {
-	expectNamed("destination-alignment", wrongCluster([](auto& c) {
-					c.makeExplicit();
-					c.destination(2) += 64;
+	expectNamed("resolution-alignment", wrongCluster([](auto& c) {
+					const Buffer where(c.gpu, std::vector<uint32_t>{ 0, uint32_t(c.info.srcInfosCount), uint32_t(c.info.srcInfosCount >> 32) });
+					c.info.addressResolutionFlags = VK_CLUSTER_ACCELERATION_STRUCTURE_ADDRESS_RESOLUTION_INDIRECTED_SRC_INFOS_COUNT_BIT_NV;
+					c.info.srcInfosCount = where.address + 4;
+					c.run();
+					c.info.addressResolutionFlags = 0;
+					c.info.srcInfosCount = c.count->address;
 				}));
 }
 
-TEST(clusterLayerNames, destinationsThatOverlap)
+TEST(clusterLayerNames, anOperationThatIsNone)
 {
-	expectNamed("destinations-overlap", wrongCluster([](auto& c) {
-					c.makeExplicit();
-					c.destination(3) = c.destination(2) + 128;
-				}));
-}
-
-TEST(clusterLayerNames, aDestinationInNoBuffer)
-{
-	expectNamed("destination-range", wrongCluster([](auto& c) {
-					c.makeExplicit();
-					c.destination(1) = 0;
-				}));
-}
-
-TEST(clusterLayerNames, aDestinationSmallerThanTheResult)
-{
-	expectNamed("destination-too-small", wrongCluster([](auto& c) {
-					c.makeExplicit();
-					c.sizes = std::make_unique<Buffer>(c.gpu, std::vector<uint32_t>{ 4096, 100, 4096, 4096 });
-					c.info.dstSizesArray = { c.sizes->address, 4, 16 };
-				}));
-}
-
-TEST(clusterLayerNames, noDestinations)
-{
-	expectNamed("dst-addresses-null", wrongCluster([](auto& c) {
-					c.makeExplicit();
-					c.info.dstAddressesArray = {};
-				}));
-}
-
-// Moves.
-
-namespace
-{
-
-ClusterCommand moveClusters(Gpu& gpu, const std::vector<VkDeviceAddress>& sources, VkClusterAccelerationStructureOpModeNV mode)
-{
-	ClusterCommand command(gpu);
-	command.setType(VK_CLUSTER_ACCELERATION_STRUCTURE_OP_TYPE_MOVE_OBJECTS_NV, mode);
-	command.move.type = VK_CLUSTER_ACCELERATION_STRUCTURE_TYPE_TRIANGLE_CLUSTER_NV;
-	command.move.maxMovedBytes = 1 << 14;
-	command.setArguments(sources);
-	command.prepare();
-	return command;
-}
-
-}  // namespace
-
-TEST(clusterLayerNames, aMoveOfNothing)
-{
-	expectNamed("move-source", [](Stage& stage) { moveClusters(stage.gpu, { stage.data.vertex_buffer.address }, kImplicit).run(); });
-}
-
-TEST(clusterLayerNames, aMoveOfMoreThanDeclared)
-{
-	expectNamed("max-moved-bytes", [](Stage& stage) {
-		ClusterCommand command = moveClusters(stage.gpu, stage.built(), kImplicit);
-		command.move.maxMovedBytes = 100;
+	expectNamed("op-type", [](Stage& stage) {
+		ClusterCommand command = stage.clusters();
+		command.info.input.opType = static_cast<VkClusterAccelerationStructureOpTypeNV>(17);
 		command.run();
 	});
 }
 
-TEST(clusterLayerNames, aMoveOntoItsSourceThatIsSaidNotToBe)
+TEST(clusterLayerNames, aModeThatIsNone)
 {
-	expectNamed("move-overlap", [](Stage& stage) {
-		const auto built = stage.built();
-		ClusterCommand command = moveClusters(stage.gpu, { built[1] }, kExplicit);
-		command.move.noMoveOverlap = VK_TRUE;
-		command.destination(0) = built[1] - 128;
-		command.run();
+	expectNamed("op-mode", wrongCluster([](auto& c) { c.info.input.opMode = static_cast<VkClusterAccelerationStructureOpModeNV>(3); }));
+}
+
+TEST(clusterLayerNames, aCommandInsideARenderPass)
+{
+	expectNamed("inside-render-pass", [](Stage& stage) {
+		ClusterCommand command = stage.clusters();
+		stage.gpu.run([&](VkCommandBuffer commands) {
+			VkRenderingInfo rendering = { VK_STRUCTURE_TYPE_RENDERING_INFO };
+			rendering.renderArea.extent = { 4, 4 };
+			rendering.layerCount = 1;
+			vkCmdBeginRendering(commands, &rendering);
+			command.record(commands);
+			vkCmdEndRendering(commands);
+		});
 	});
 }
 

@@ -21,6 +21,15 @@ TEST(clusterLayerNames, limitsOfATemplateInNoBuffer)
 	expectNamed("bounds-range", wrongTemplate([](TemplateInfo& info) { info.instantiationBoundingBoxLimit = 0x20; }));
 }
 
+TEST(clusterLayerNames, limitsOfATemplateTheWrongWayRound)
+{
+	expectNamed("bounds-order", [](Stage& stage) {
+		const Buffer box(stage.gpu, std::vector<float>{ 1, 1, 1, 0, 1, 1 });
+		ASSERT_EQ(box.address % 32, 0u);
+		stage.madeTemplate([&](TemplateInfo& info) { info.instantiationBoundingBoxLimit = box.address; });
+	});
+}
+
 TEST(clusterLayerNames, aTemplateWithFewerVerticesThanItsIndices)
 {
 	expectNamed("index-out-of-range", wrongTemplate([](TemplateInfo& info) { info.vertexCount = 7; }));
@@ -178,6 +187,11 @@ TEST(clusterLayerNames, referencesNotAligned)
 }
 
 // Instances.
+
+TEST(clusterLayerNames, instancesInNoBuffer)
+{
+	expectNamed("instances-range", [](Stage& stage) { topLevel(stage.gpu, std::vector{ placed(0, 0, 0, 0) }, 0x100); });
+}
 
 TEST(clusterLayerNames, anInstanceOfACluster)
 {

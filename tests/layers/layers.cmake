@@ -21,7 +21,8 @@ if(TARGET tessera_cluster_layer)
   endforeach()
   add_custom_target(tessera_layer_test_shaders DEPENDS ${layer_spirv})
   add_executable(cluster_layer_test ${layers}/cluster_harness.cpp ${layers}/cluster_tracer.cpp ${layers}/cluster_scene.cpp ${layers}/layer_report.cpp ${layers}/cluster_trace_test.cpp ${layers}/cluster_behaviour_test.cpp ${layers}/cluster_use_test.cpp
-    ${layers}/cluster_mistakes.cpp ${layers}/cluster_mistakes_commands_test.cpp ${layers}/cluster_mistakes_clusters_test.cpp ${layers}/cluster_mistakes_structures_test.cpp)
+    ${layers}/cluster_mistakes.cpp ${layers}/cluster_mistakes_commands_test.cpp
+    ${layers}/cluster_mistakes_destinations_test.cpp ${layers}/cluster_mistakes_clusters_test.cpp ${layers}/cluster_mistakes_structures_test.cpp)
   target_link_libraries(cluster_layer_test PRIVATE tessera_flags tessera_vulkan nlohmann_json::nlohmann_json GTest::gtest_main)
   target_include_directories(cluster_layer_test PRIVATE ${layers}/..)
   target_compile_definitions(cluster_layer_test PRIVATE TESSERA_LAYERS="$<TARGET_FILE_DIR:tessera_cluster_layer>" TESSERA_LAYER_SHADERS="${layer_shaders}")
