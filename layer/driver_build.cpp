@@ -182,8 +182,8 @@ VkResult runDriverBuilds(const Operation& operation, std::span<DriverBuild> buil
 	const auto scratch = OwnBuffer::make(device, scratch_bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
 	if (!input || !storage || !scratch)
 		return VK_ERROR_OUT_OF_DEVICE_MEMORY;
-	std::memcpy(input->data(), all.vertices.data(), all.vertices.size() * sizeof(Vertex));
-	std::memcpy(input->data() + vertex_bytes, all.indices.data(), index_bytes);
+	std::copy_n(reinterpret_cast<const std::byte*>(all.vertices.data()), all.vertices.size() * sizeof(Vertex), input->data());
+	std::copy_n(reinterpret_cast<const std::byte*>(all.indices.data()), index_bytes, input->data() + vertex_bytes);
 	std::vector<VkAccelerationStructureBuildGeometryInfoKHR> infos;
 	std::vector<const VkAccelerationStructureBuildRangeInfoKHR*> ranges;
 	for (DriverBuild& build : builds)

@@ -34,7 +34,8 @@ void append(std::vector<std::byte>& bytes, const Type* values, size_t count)
 template <typename Type>
 std::span<const std::byte> take(std::span<const std::byte> bytes, Type* values, size_t count)
 {
-	std::memcpy(values, bytes.data(), count * sizeof(Type));
+	if (count)
+		std::memcpy(values, bytes.data(), count * sizeof(Type));
 	return bytes.subspan(count * sizeof(Type));
 }
 

@@ -195,7 +195,7 @@ VkResult execute(const HostContext& context, const TopLevelBuild& build)
 		top.has_clusters = top.has_clusters || slot.row_step;
 		device.lookup->slots.set(number, &slot);
 	}
-	std::memcpy(top.instances->data(), instances.data(), instances.size() * sizeof(Placed));
+	std::copy_n(reinterpret_cast<const std::byte*>(instances.data()), instances.size() * sizeof(Placed), top.instances->data());
 	result = buildDriver(context, build, top.instances->address());
 	device.report.count("top-level builds", 1);
 	device.report.count("instances of clusters", top.has_clusters ? instances.size() : 0);

@@ -66,7 +66,8 @@ public:
 	template <typename Type>
 	Buffer(Gpu& gpu, const std::vector<Type>& values, VkBufferUsageFlags usage = kAll) : Buffer(gpu, values.size() * sizeof(Type), usage)
 	{
-		std::memcpy(data, values.data(), values.size() * sizeof(Type));
+		if (!values.empty())
+			std::memcpy(data, values.data(), values.size() * sizeof(Type));
 	}
 	~Buffer();
 	Buffer(const Buffer&) = delete;
