@@ -18,7 +18,7 @@ enum class Command
 	Count,
 };
 
-inline constexpr std::array kCommandNames = {
+inline constexpr std::string_view kCommandNames[] = {
 #define LAYER_COMMAND(name) std::string_view(#name),
 #include "recorded_commands.inc"
 #undef LAYER_COMMAND
