@@ -169,6 +169,15 @@ std::string comparisonText(const PageFacts& facts)
 // What a driver was measured to take for a million triangles, H100, driver 580.159: a build that prefers building fast.
 constexpr double kDriverBuildMs = 1.19;
 
+// Those that the frame's structures were built for: of one structure, or of all clusters.
+uint64_t reservedTriangles(const RayStats& rays)
+{
+	uint64_t triangles = rays.triangles.capacity;
+	for (const ListStats& list : rays.clusters.lists)
+		triangles += list.name == "ray_instantiated_triangles" || list.name == "ray_transient_triangles" ? list.capacity : 0;
+	return triangles;
+}
+
 // Building and tracing by themselves.
 std::string raysText(std::span<const Row> rows)
 {
@@ -185,12 +194,16 @@ std::string raysText(std::span<const Row> rows)
 			return found == row.frames.passes.end() ? 0 : found->second.median();
 		};
 		const RayStats& rays = row.frames.last.rays;
-		const double millions_built = double(rays.triangles.capacity) * 1e-6, build_ms = took("build_geometry");
-		text +=
-			lineOf({ row.what.raster, fmt::format("{}", row.what.options.rate), millions(rays.triangles.wanted), millions(rays.triangles.capacity),
-					 msText(build_ms), msText(millions_built > 0 ? build_ms / millions_built : 0), msText(kDriverBuildMs * millions_built),
-					 msText(took("trace_visibility")), msText(took("trace_shadows")), msText(took("trace_ambient")),
-					 fmt::format("{}", row.what.options.ao_samples + 1), fmt::format("{:.1f}", toMib(rays.total())) });
+		const double millions_built = double(reservedTriangles(rays)) * 1e-6;
+		double build_ms = 0;
+		for (const char* pass : { "build_geometry", "clear_clusters", "list_clusters", "list_structures", "insert_clusters", "instantiate_clusters",
+								  "build_transients", "build_structures" })
+			build_ms += took(pass);
+		text += lineOf({ row.what.raster, fmt::format("{}", row.what.options.rate), millions(row.frames.last.counts.micro_triangles),
+						 millions(reservedTriangles(rays)), msText(build_ms), msText(millions_built > 0 ? build_ms / millions_built : 0),
+						 msText(kDriverBuildMs * millions_built), msText(took("trace_visibility") + took("trace_clusters")),
+						 msText(took("trace_shadows")), msText(took("trace_ambient")), fmt::format("{}", row.what.options.ao_samples + 1),
+						 fmt::format("{:.1f}", toMib(rays.total())) });
 	}
 	return text;
 }

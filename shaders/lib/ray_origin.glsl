@@ -36,7 +36,8 @@ bool visiblePayload(uvec2 place, uint64_t words, View view, out uint payload)
 
 float largestCoordinate(vec3 p) { return max(abs(p.x), max(abs(p.y), abs(p.z))); }
 
-RayOrigin rayOrigin(RasterInputs inputs, uint64_t words, uvec2 place, View view)
+// `more_offset`: beyond ORIGIN_OFFSET, where what rays are traced through is not the same bits.
+RayOrigin rayOrigin(RasterInputs inputs, uint64_t words, uvec2 place, View view, float more_offset)
 {
 	RayOrigin origin = RayOrigin(false, vec3(0.0), vec3(0.0));
 	uint payload;
@@ -52,7 +53,7 @@ RayOrigin rayOrigin(RasterInputs inputs, uint64_t words, uvec2 place, View view)
 	vec3 normal = squared > 0.0 ? facet * inversesqrt(squared) : vec3(0.0);
 	normal = dot(normal, ray.direction) > 0.0 ? -normal : normal;
 	float largest = max(largestCoordinate(p0), max(largestCoordinate(p1), largestCoordinate(p2)));
-	return RayOrigin(true, point + normal * (largest * ORIGIN_OFFSET), normal);
+	return RayOrigin(true, point + normal * (largest * (ORIGIN_OFFSET + more_offset)), normal);
 }
 
 #endif

@@ -12,8 +12,10 @@ struct TraceLightArgs
 	GPU_PTR(float) light;  // per pixel: how much of it arrives, 0..1; not written where nothing is seen
 	uint samples;          // of trace_ambient
 	float radius_world;    // what is farther does not occlude
+	float more_offset;     // of rays' origins, where clusters' positions lose bits; of the triangle's largest coordinate
+	uint unused;
 };
-SHARED_LAYOUT(TraceLightArgs, 96, radius_world, 92)
+SHARED_LAYOUT(TraceLightArgs, 104, unused, 100)
 
 SHARED_END
 

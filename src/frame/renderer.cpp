@@ -210,8 +210,8 @@ private:
 		if (attempt_.rounds > 1 && tracesLight(input_))
 			return badInput(
 				"{}: the frame needs {} rounds, and shadows and ambient occlusion need all of it at once; make its lists larger (--capacity "
-				"visible_clusters, full_clusters)",
-				scene_.path, attempt_.rounds);
+				"visible_clusters, full_clusters{})",
+				scene_.path, attempt_.rounds, buildsClusters(input_) ? "; --max-cluster-data, --max-cluster-vertices" : "");
 		++attempts_;
 		grew_ = false;
 		outcome_ = { true, true, attempt_.coarsening };

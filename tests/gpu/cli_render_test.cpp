@@ -164,6 +164,25 @@ TEST_F(programWithDevice, aCameraPathGivesThePicturesOfItsCameras)
 	EXPECT_EQ(runTessera(scene + "--camera-path " + (folder / "none.json").string()).exit_code, 3);
 }
 
+TEST_F(programWithDevice, clustersThatTheDeviceLacksEndWithFourAndTheReason)
+{
+	const json info = json::parse(runTessera("info --json").output, nullptr, false);
+	if (info["device"]["gates"]["cluster_acceleration_structure"])
+		GTEST_SKIP() << "the device has them";
+	const std::string why = info["device"]["why_closed"]["cluster_acceleration_structure"];
+	EXPECT_FALSE(why.empty());
+	const ProgramRun run = runTessera("render builtin:quad --raster rt --rays clusters --size 16x16 -o " + (scratchFolder() / "no.png").string());
+	EXPECT_EQ(run.exit_code, 4) << run.errors;
+	EXPECT_NE(run.errors.find(why), std::string::npos) << run.errors;
+	// Without being asked for, the other way is taken, and said.
+	const json rays = info["device"]["gates"]["ray_tracing_pipeline"] ? statsOf("builtin:quad --raster rt --size 32x32")["rays"] : json();
+	if (rays.is_object())
+	{
+		EXPECT_EQ(rays["path"], "khr");
+		EXPECT_EQ(rays["path_reason"], why);
+	}
+}
+
 TEST_F(programWithDevice, anUnknownDeviceEndsWithFour)
 {
 	const ProgramRun run = runTessera("render builtin:quad --device no-such-device --quiet");

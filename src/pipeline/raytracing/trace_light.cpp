@@ -4,6 +4,8 @@
 #include "pipeline/passes.h"
 #include "pipeline/uses.h"
 
+#include <cmath>
+
 namespace tessera
 {
 
@@ -19,12 +21,20 @@ static constexpr auto kShadowUses =
 static constexpr auto kAmbientUses = joinUses(surfaceUses(Access::RayRead), partUses(Access::RayRead), kTracedUses,
 											  std::array<Use, 1>{ { { "ambient_visibility", Access::RayWrite } } });
 
+// A position that loses bits of its mantissa moves by up to 2^(bits - 23) of each coordinate, so a triangle by less than twice that of its largest.
+static float offsetOfTruncation(const PlanInput& input)
+{
+	const uint32_t bits = buildsClusters(input) ? input.options.truncated_bits : 0;
+	return bits == 0 ? 0 : std::ldexp(2.0f, int(bits) - 23);
+}
+
 static TraceLightArgs argsFor(const PassContext& pass, std::string_view light)
 {
 	TraceLightArgs args = {};
 	args.inputs = rasterInputs(pass);
 	args.visibility = pass.address("visibility_buffer");
 	args.light = pass.address(light);
+	args.more_offset = offsetOfTruncation(pass.input());
 	return args;
 }
 

@@ -18,6 +18,15 @@ void draw(Ui&, Session& session)
 		valueRow("images", bytesText(memory.images));
 		valueRow("rays", bytesText(memory.rays));
 		valueRow("together", bytesText(memory.total()));
+		const RayClusterStats& clusters = session.shown.result.rays.clusters;
+		if (clusters.built)
+		{
+			valueRow("rays: templates", fmt::format("{}, {}", clusters.templates, bytesText(clusters.template_bytes)));
+			valueRow("rays: clusters", fmt::format("{} of {}", bytesText(clusters.data_used_bytes), bytesText(clusters.data_bytes)));
+			valueRow("rays: structures", fmt::format("{} of {}", bytesText(clusters.structure_used_bytes), bytesText(clusters.structure_bytes)));
+			valueRow("rays: from templates", fmt::format("{} full clusters, {} parts", clusters.full, clusters.parts));
+			valueRow("rays: transient", fmt::format("{} of 1x1x1, {} of <= 2x2x2", clusters.units, clusters.groups));
+		}
 		ImGui::EndTable();
 	}
 	if (!ImGui::BeginTable("resources", 3, ImGuiTableFlags_RowBg))

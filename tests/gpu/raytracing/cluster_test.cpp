@@ -92,9 +92,9 @@ const ListStats& ClusterFrame::list(std::string_view name) const
 	return found == result.lists.end() ? kNone : *found;
 }
 
-std::unique_ptr<Renderer> clusterRenderer(const GpuScene& scene, const RenderOptions& options)
+std::unique_ptr<Renderer> clusterRenderer(const GpuScene& scene, const RenderOptions& options, std::vector<std::string_view> more_outputs)
 {
-	auto renderer = Renderer::create(clusterDevice(), scene.built, scene.table, framePasses(), options);
+	auto renderer = Renderer::create(clusterDevice(), scene.built, scene.table, framePasses(), options, more_outputs);
 	EXPECT_TRUE(renderer) << (renderer ? "" : renderer.error().message);
 	return renderer ? std::move(*renderer) : nullptr;
 }

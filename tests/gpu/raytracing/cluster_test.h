@@ -27,7 +27,7 @@ struct ClusterFrame
 	const ListStats& list(std::string_view name) const;
 };
 
-std::unique_ptr<Renderer> clusterRenderer(const GpuScene& scene, const RenderOptions& options);
+std::unique_ptr<Renderer> clusterRenderer(const GpuScene& scene, const RenderOptions& options, std::vector<std::string_view> more_outputs = {});
 ClusterFrame drawnBy(Renderer& renderer, const Camera& camera);
 // A frame of a renderer of its own.
 ClusterFrame drawn(const GpuScene& scene, const RenderOptions& options, const Camera& camera);

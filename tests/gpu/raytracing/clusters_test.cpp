@@ -209,6 +209,40 @@ TEST_F(rayClusters, lightIsThatOfAllTrianglesAtOnceWithEveryRasteriser)
 	}
 }
 
+// Rays start farther from a surface whose traced positions lose bits: seen from the sun's direction, all of a ball is lit.
+TEST_F(rayClusters, aBallDoesNotShadowItselfWherePositionsLoseBits)
+{
+	ImportedScene imported = sphereScene(24, 48, TexelFormat::U8, Wrap::Repeat);
+	imported.materials[0].displacement.reset();
+	const GpuScene scene(imported);
+	const dvec3 middle = (scene.built.world_low + scene.built.world_high) / 2.0, sun(0.4867, 0.6489, 0.5849);
+	Camera camera = squareCamera(middle + sun * (boundingRadius(scene.built) * 3), middle);
+	camera.fov_y_rad = 2 * std::atan(1.2 / 3);
+	for (const uint32_t bits : { 6u, 12u })
+	{
+		RenderOptions options = pathOptions(3, RayPath::Clusters, Raster::Soft);
+		options.shadows = true;
+		options.truncated_bits = bits;
+		const auto renderer = clusterRenderer(scene, options, { { "kept_visibility" } });
+		ASSERT_TRUE(renderer);
+		drawnBy(*renderer, camera);
+		const auto seen = renderer->readResource("kept_visibility"), light = renderer->readResource("sun_visibility");
+		ASSERT_TRUE(seen && light);
+		size_t lit = 0, dark = 0;
+		for (size_t pixel = 0; pixel < size_t(96) * 54; ++pixel)
+		{
+			uint64_t word = 0;
+			float arrives = 0;
+			std::memcpy(&word, seen->data() + pixel * sizeof word, sizeof word);
+			std::memcpy(&arrives, light->data() + pixel * sizeof arrives, sizeof arrives);
+			lit += word != 0 && arrives == 1;
+			dark += word != 0 && arrives != 1;
+		}
+		EXPECT_GT(lit, 300u) << bits;
+		EXPECT_EQ(dark, 0u) << bits;
+	}
+}
+
 TEST_F(rayClusters, aSceneInRoundsIsSeenAsOne)
 {
 	const auto scene = gpuScene("instances:30", { 24, 16 });
