@@ -16,7 +16,7 @@ stop() { echo "test: $*" >&2; exit 2; }
 sources()
 {
 	git ls-files -- '*.cpp' '*.h' 2> /dev/null ||
-		find src shaders tables tests bench include '(' -name '*.cpp' -o -name '*.h' ')' 2> /dev/null || true
+		find src layer shaders tables tests bench include '(' -name '*.cpp' -o -name '*.h' ')' 2> /dev/null || true
 }
 
 buildPreset()

@@ -47,7 +47,8 @@ struct Device
 	std::unordered_map<VkQueue, uint32_t> queue_families;
 	std::unordered_map<uint32_t, std::unique_ptr<HostLink>> links;  // by queue family
 	std::mutex object_lock;
-	std::unordered_set<VkShaderModule> cluster_modules;  // those that read gl_ClusterIDNV
+	std::unordered_set<VkPipeline> pipelines_without_clusters;  // ray tracing pipelines that were not made to meet clusters
+	std::unordered_set<VkShaderModule> cluster_modules;         // those that read gl_ClusterIDNV
 };
 
 // Of any handle of that instance or device. Valid until it is destroyed.

@@ -80,15 +80,25 @@ void noteBarrier(Recording& recording, VkPipelineStageFlags from, VkPipelineStag
 	recording.epoch += ordersBuilds(from, to, count, barriers, buffer_count, buffers);
 }
 
+void noteTrace(Device& device, Recording& recording)
+{
+	const std::lock_guard guard(device.object_lock);
+	const VkPipeline pipeline = recording.state.pipeline(VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR);
+	recording.traces_without_clusters = recording.traces_without_clusters || device.pipelines_without_clusters.contains(pipeline);
+}
+
 void noteBarrier2(Recording& recording, const VkDependencyInfo* dependency)
 {
 	recording.epoch += ordersBuilds(*dependency);
 }
 
 template <Command kCommand, typename... Args>
-void note(Recording& recording, [[maybe_unused]] PFN_vkVoidFunction next, [[maybe_unused]] Args... args)
+void note([[maybe_unused]] Device& device, [[maybe_unused]] Recording& recording, [[maybe_unused]] PFN_vkVoidFunction next,
+		  [[maybe_unused]] Args... args)
 {
-	if constexpr (opens(kCommand))
+	if constexpr (isOneOf(kCommand, { Command::TraceRaysKHR, Command::TraceRaysIndirectKHR, Command::TraceRaysIndirect2KHR }))
+		noteTrace(device, recording);
+	else if constexpr (opens(kCommand))
 		recording.opened_by = kCommandNames[size_t(kCommand)], ++recording.open;
 	else if constexpr (closes(kCommand))
 		--recording.open;
@@ -133,7 +143,7 @@ struct Forward<kCommand, Returned(VKAPI_PTR*)(VkCommandBuffer, Args...)>
 		if (device.active)
 			if (Recording* recording = device.recordings.find(buffer))
 			{
-				note<kCommand>(*recording, next, args...);
+				note<kCommand>(device, *recording, next, args...);
 				segment = recording->current;
 			}
 		return reinterpret_cast<Returned(VKAPI_PTR*)(VkCommandBuffer, Args...)>(next)(segment, args...);

@@ -15,11 +15,16 @@ namespace
 
 constexpr VkStructureType kOptIn = VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CLUSTER_ACCELERATION_STRUCTURE_CREATE_INFO_NV;
 
+bool allowsClusters(const VkRayTracingPipelineCreateInfoKHR& info)
+{
+	const auto* opt_in = findInChain<const VkRayTracingPipelineClusterAccelerationStructureCreateInfoNV>(info.pNext, kOptIn);
+	return opt_in && opt_in->allowClusterAccelerationStructure;
+}
+
 // A pipeline whose shaders ask for clusters must have been made for them.
 void checkOptIn(Device& device, const VkRayTracingPipelineCreateInfoKHR& info)
 {
-	const auto* opt_in = findInChain<const VkRayTracingPipelineClusterAccelerationStructureCreateInfoNV>(info.pNext, kOptIn);
-	const bool allowed = opt_in && opt_in->allowClusterAccelerationStructure;
+	const bool allowed = allowsClusters(info);
 	const std::lock_guard guard(device.object_lock);
 	for (uint32_t i = 0; i < info.stageCount; ++i)
 		if (!info.pStages[i].module)
@@ -87,7 +92,16 @@ VKAPI_ATTR VkResult VKAPI_CALL createRayTracingPipelines(VkDevice handle, VkDefe
 	std::deque<TakenOut> taken;
 	for (VkRayTracingPipelineCreateInfoKHR& info : changed)
 		taken.emplace_back(&info, kOptIn);
-	return device.next.CreateRayTracingPipelinesKHR(handle, deferred, cache, count, changed.data(), allocator, pipelines);
+	// At once: a deferred operation would find the chains as they were.
+	const VkResult result = device.next.CreateRayTracingPipelinesKHR(handle, VK_NULL_HANDLE, cache, count, changed.data(), allocator, pipelines);
+	taken.clear();
+	const std::lock_guard guard(device.object_lock);
+	for (uint32_t i = 0; i < count; ++i)
+		if (pipelines[i] && !allowsClusters(infos[i]))
+			device.pipelines_without_clusters.insert(pipelines[i]);
+		else
+			device.pipelines_without_clusters.erase(pipelines[i]);
+	return deferred && result == VK_SUCCESS ? VK_OPERATION_NOT_DEFERRED_KHR : result;
 }
 
 }  // namespace tessera::layer

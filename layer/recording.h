@@ -36,6 +36,7 @@ struct Recording
 	int open = 0;  // render passes, queries and the like that have begun and not ended: no segment may end inside one
 	std::string opened_by;
 	uint32_t epoch = 0;
+	bool traces_without_clusters = false;  // rays by a pipeline that was not made to meet clusters
 };
 
 class Recordings

@@ -108,6 +108,12 @@ void Structures::destroyed(Device& device, VkAccelerationStructureKHR handle)
 	}
 }
 
+bool Structures::onlyClusters() const
+{
+	const std::lock_guard guard(lock_);
+	return !top_.empty() && std::all_of(top_.begin(), top_.end(), [](const auto& entry) { return entry.second.has_clusters; });
+}
+
 void Structures::driverAddress(VkAccelerationStructureKHR handle, VkDeviceAddress address)
 {
 	const std::lock_guard guard(lock_);

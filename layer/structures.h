@@ -54,6 +54,9 @@ public:
 	void copied(Device& device, VkAccelerationStructureKHR source, VkAccelerationStructureKHR destination);
 	void destroyed(Device& device, VkAccelerationStructureKHR handle);
 
+	// There are top-level structures, and clusters in each.
+	bool onlyClusters() const;
+
 	// Structures of the driver, by whose addresses instances may refer to them.
 	void driverAddress(VkAccelerationStructureKHR handle, VkDeviceAddress address);
 	bool isDriverAddress(VkDeviceAddress address) const;

@@ -88,6 +88,17 @@ const char* commandName(const HostCommand& command)
 	return cluster ? nameOf(cluster->input.type()) : std::holds_alternative<TopLevelBuild>(command) ? "top-level build" : "copy of a structure";
 }
 
+// Rays that can only meet clusters, by a pipeline that must not. Where there are other scenes as well, these may be what it traces.
+void checkTraces(Device& device, VkCommandBuffer buffer)
+{
+	const Recording* recording = device.recordings.find(buffer);
+	if (recording && recording->traces_without_clusters && device.structures.onlyClusters())
+		device.report.violation(
+			"trace-without-clusters",
+			"vkCmdTraceRaysKHR: the bound pipeline has no VkRayTracingPipelineClusterAccelerationStructureCreateInfoNV that allows "
+			"clusters, and all top-level structures have clusters");
+}
+
 VkResult runBuffer(const HostContext& context, VkCommandBuffer buffer)
 {
 	const Recording* recording = context.device.recordings.find(buffer);
@@ -103,6 +114,7 @@ VkResult runBuffer(const HostContext& context, VkCommandBuffer buffer)
 			if (result != VK_SUCCESS)
 				return result;
 		}
+	checkTraces(context.device, buffer);
 	const VkCommandBuffer last = recording ? recording->current : buffer;
 	VkSubmitInfo submit = { VK_STRUCTURE_TYPE_SUBMIT_INFO };
 	submit.commandBufferCount = 1;
@@ -126,7 +138,12 @@ VkResult submitAll(VkQueue queue, uint32_t count, const Submit* submits, VkFence
 {
 	Device& device = deviceOf(queue);
 	if (!device.active || std::none_of(submits, submits + count, [&](const Submit& submit) { return hasHostCommands(device, submit); }))
+	{
+		for (uint32_t i = 0; device.active && i < count; ++i)
+			for (const auto& entry : buffersOf(submits[i]))
+				checkTraces(device, bufferOf(entry));
 		return submitNext(device, queue, count, submits, fence);
+	}
 	const std::lock_guard guard(device.submit_lock);
 	Hazards hazards;
 	const HostContext context = { device, linkOf(device, queue), queue, hazards };

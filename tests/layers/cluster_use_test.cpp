@@ -11,12 +11,12 @@ namespace tessera::test
 namespace
 {
 
-void traceWith(Stage& stage, const TraceOptions& options)
+void traceWith(Stage& stage, const TraceOptions& options, const char* closest_hit = "cluster.rchit")
 {
 	ClusterCommand bottom = stage.bottomLevels(stage.built());
 	bottom.run();
 	const auto scene = topLevel(stage.gpu, std::vector{ placed(bottom.resultAddresses()[0], 0.0f, 0.0f, 1) });
-	trace(stage.gpu, *scene, "cluster.rchit", 4.0f, 8, options);
+	trace(stage.gpu, *scene, closest_hit, 4.0f, 8, options);
 }
 
 VkCommandBuffer allocate(Gpu& gpu, VkCommandBufferLevel level)
@@ -84,7 +84,16 @@ TEST(clusterLayerNames, aBarrierThatIsThereIsNotMissed)
 
 TEST(clusterLayerNames, aPipelineThatDoesNotAllowClusters)
 {
-	expectNamed("pipeline-without-clusters", [](Stage& stage) { traceWith(stage, { .allow_clusters = false }); });
+	expectNamed("pipeline-without-clusters", [](Stage& stage) {
+		// A scene without clusters is alive as well, which may be what such a pipeline is for.
+		const auto plain = topLevel(stage.gpu, std::vector{ placed(0, 0.0f, 0.0f, 0) });
+		traceWith(stage, { .allow_clusters = false });
+	});
+}
+
+TEST(clusterLayerNames, raysThatMeetClustersByAPipelineThatDoesNotAllowThem)
+{
+	expectNamed("trace-without-clusters", [](Stage& stage) { traceWith(stage, { .allow_clusters = false }, "plain.rchit"); });
 }
 
 TEST(clusterLayerNames, aShaderWithoutTheCapability)
