@@ -12,7 +12,7 @@
 
 const int SUBPIXELS = SCREEN_SUBPIXELS;
 const float GUARD_PX = 16384.0;    // beyond this, positions would not fit the integers
-const int SMALL_BOX_PX = 256;      // pixels of bounding box up to which one lane does it alone
+const int SMALL_BOX_PX = 256;      // pixels of bounding box up to which one lane does it alone, or each of those that share its rows
 
 struct ScreenVertex
 {
@@ -124,14 +124,25 @@ bool orient(inout ScreenVertex b, inout ScreenVertex c, int area_sign, bool two_
 	return true;
 }
 
-// One lane rasterises a triangle of a small box: 32-bit integers suffice there.
-void rasterSmall(VisibilityRef target, ScreenVertex a, ScreenVertex b, ScreenVertex c, PixelBox box, uint payload, bool two_sided, View view)
+// A lane's rows of a triangle: every `count`-th, from the `index`-th on.
+struct Rows
+{
+	int index;
+	int count;
+};
+
+const Rows ALL_ROWS = Rows(0, 1);
+
+// One lane rasterises its rows of a triangle of a small box: 32-bit integers suffice there.
+void rasterSmall(VisibilityRef target, ScreenVertex a, ScreenVertex b, ScreenVertex c, PixelBox box, Rows rows, uint payload, bool two_sided,
+                 View view)
 {
 	ivec2 side_b = b.position - a.position;
 	ivec2 side_c = c.position - a.position;
 	int area = side_b.x * side_c.y - side_b.y * side_c.x;
 	if (!orient(b, c, area, two_sided))
 		return;
+	box.low.y += rows.index;
 	ivec2 first = box.low * SUBPIXELS + SUBPIXELS / 2;
 	ivec2 bc = c.position - b.position;
 	ivec2 ca = a.position - c.position;
@@ -147,7 +158,8 @@ void rasterSmall(VisibilityRef target, ScreenVertex a, ScreenVertex b, ScreenVer
 	float slope_b = (b.depth - a.depth) * inverse_area;
 	float slope_c = (c.depth - a.depth) * inverse_area;
 	float depth = a.depth + float(bias_b) * slope_b + float(bias_c) * slope_c;
-	for (int y = box.low.y; y <= box.high.y; ++y)
+	int row_step = SUBPIXELS * rows.count;
+	for (int y = box.low.y; y <= box.high.y; y += rows.count)
 	{
 		int edge_a = row_a, edge_b = row_b, edge_c = row_c;
 		for (int x = box.low.x; x <= box.high.x; ++x)
@@ -158,23 +170,25 @@ void rasterSmall(VisibilityRef target, ScreenVertex a, ScreenVertex b, ScreenVer
 			edge_b -= ca.y * SUBPIXELS;
 			edge_c -= ab.y * SUBPIXELS;
 		}
-		row_a += bc.x * SUBPIXELS;
-		row_b += ca.x * SUBPIXELS;
-		row_c += ab.x * SUBPIXELS;
+		row_a += bc.x * row_step;
+		row_b += ca.x * row_step;
+		row_c += ab.x * row_step;
 	}
 }
 
-// One lane rasterises a triangle alone, unless it is too large for that: then it does nothing and says so.
-bool rasterUnlessLarge(VisibilityRef target, ScreenVertex a, ScreenVertex b, ScreenVertex c, uint payload, bool two_sided, View view)
+ivec2 boxSize(PixelBox box) { return box.high - box.low + 1; }
+
+// One lane rasterises its rows of a triangle, unless that is too large: then it does nothing and says so.
+bool rasterUnlessLarge(VisibilityRef target, ScreenVertex a, ScreenVertex b, ScreenVertex c, Rows rows, uint payload, bool two_sided, View view)
 {
 	PixelBox box = pixelBox(a.position, b.position, c.position, view);
 	if (any(greaterThan(box.low, box.high)))
 		return true;
 	ivec2 span = max(a.position, max(b.position, c.position)) - min(a.position, min(b.position, c.position));
-	ivec2 size = box.high - box.low + 1;
-	if (max(span.x, span.y) >= 64 * SUBPIXELS || size.x * size.y > SMALL_BOX_PX)
+	ivec2 size = boxSize(box);
+	if (max(span.x, span.y) >= 64 * SUBPIXELS || size.x * size.y > SMALL_BOX_PX * rows.count)
 		return false;
-	rasterSmall(target, a, b, c, box, payload, two_sided, view);
+	rasterSmall(target, a, b, c, box, rows, payload, two_sided, view);
 	return true;
 }
 

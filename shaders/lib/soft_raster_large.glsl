@@ -100,8 +100,8 @@ void leaveWide(uint triangle)
 	raster_any_wide = 1u;
 }
 
-// One lane takes triangle `triangle` of its workgroup: does it alone when it is small, leaves it to rasterLeft otherwise.
-void rasterTriangle(VisibilityRef target, uint triangle, uvec3 corners, uint payload, bool two_sided, bool projected, View view)
+// One lane takes its rows of triangle `triangle` of its workgroup, when it is small; leaves it to rasterLeft otherwise.
+void rasterTriangle(VisibilityRef target, uint triangle, uvec3 corners, Rows rows, uint payload, bool two_sided, bool projected, View view)
 {
 	if (!allInside(corners, projected, view))
 	{
@@ -110,7 +110,7 @@ void rasterTriangle(VisibilityRef target, uint triangle, uvec3 corners, uint pay
 		return;
 	}
 	ScreenVertex a = screenVertex(corners.x, projected, view), b = screenVertex(corners.y, projected, view), c = screenVertex(corners.z, projected, view);
-	if (!rasterUnlessLarge(target, a, b, c, payload, two_sided, view))
+	if (!rasterUnlessLarge(target, a, b, c, rows, payload, two_sided, view))
 		leaveWide(triangle);
 }
 

@@ -5,7 +5,8 @@
 //   in   left_items           uint[]     with SMALL_FIRST: numbers of items, from raster_small
 //   out  visibility_buffer   uint64[]   per pixel, depth << 32 | payload, by atomicMax
 //
-// One workgroup takes one full cluster or batch at a time: lanes stride over its vertices, then over its triangles.
+// One workgroup takes one full cluster or batch at a time, or a share of its triangles: lanes stride over its vertices, then over its triangles
+// or, where those are larger, over their rows.
 // Host: src/pipeline/raster/raster_micro.cpp   Test: tests/gpu/raster_test.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -18,13 +19,51 @@ layout(local_size_x_id = 0) in;
 #include "lib/raster_items.glsl"
 #include "lib/soft_raster_large.glsl"
 
-void rasterTriangles(WorkItem item, bool projected, View view)
+// Part of an item's triangles: a GPU is not filled by few items, so that several workgroups then share each.
+struct Share
+{
+	uint index;
+	uint count;
+};
+
+// A processor's workgroups are small, and few of them fill it.
+const bool SHARES_WORK = gl_WorkGroupSize.x >= 64u;
+const uint MOST_SHARES = 8u;
+const uint FILLING_WORKGROUPS = 512u;  // with more, a GPU has no room for them at once, and each evaluates all vertices of its item
+const uint SAMPLED_TRIANGLES = 64u;
+const uint ROW_LANE_PX = 8u;  // of a bounding box, for each lane
+
+shared uint sampled_box_px;  // of all sampled triangles
+
+// Pixels of the bounding box of one of the item's triangles.
+uint boxPx(WorkItem item, uint t, View view)
+{
+	uvec3 corners = itemTriangle(args.inputs, item, t).vertices;
+	PixelBox box = pixelBox(keptScreenVertex(corners.x).position, keptScreenVertex(corners.y).position, keptScreenVertex(corners.z).position, view);
+	ivec2 size = clamp(boxSize(box), ivec2(0), ivec2(64));
+	return uint(size.x * size.y);
+}
+
+// How many lanes share a triangle's rows: more the larger the item's triangles are, by a sample of them. A power of two. Ends with a barrier.
+uint lanesPerTriangle(WorkItem item, View view)
+{
+	uint samples = min(item.triangle_count, SAMPLED_TRIANGLES);
+	if (gl_LocalInvocationIndex < samples)
+		atomicAdd(sampled_box_px, boxPx(item, gl_LocalInvocationIndex * item.triangle_count / samples, view));
+	barrier();
+	uint wanted = sampled_box_px / (samples * ROW_LANE_PX);
+	return wanted == 0u ? 1u : min(1u << findMSB(wanted), 16u);
+}
+
+void rasterTriangles(WorkItem item, Share share, bool projected, View view)
 {
 	VisibilityRef target = VisibilityRef(args.visibility);
-	for (uint t = gl_LocalInvocationIndex; t < item.triangle_count; t += gl_WorkGroupSize.x)
+	uint lanes = SHARES_WORK && projected && item.triangle_count > 0u ? lanesPerTriangle(item, view) : 1u;
+	for (uint i = share.index * gl_WorkGroupSize.x + gl_LocalInvocationIndex; i < item.triangle_count * lanes; i += share.count * gl_WorkGroupSize.x)
 	{
+		uint t = i / lanes;
 		MicroTriangle triangle = itemTriangle(args.inputs, item, t);
-		rasterTriangle(target, t, triangle.vertices, triangle.payload, isTwoSided(item, t), projected, view);
+		rasterTriangle(target, t, triangle.vertices, Rows(int(i % lanes), int(lanes)), triangle.payload, isTwoSided(item, t), projected, view);
 	}
 }
 
@@ -56,20 +95,22 @@ bool storeVertices(WorkItem item, View view)
 	}
 }
 
-void rasterItem(WorkItem item, View view)
+void rasterItem(WorkItem item, Share share, View view)
 {
 	bool projected = storeVertices(item, view);
-	rasterTriangles(item, projected, view);
+	rasterTriangles(item, share, projected, view);
 	barrier();
 	if (raster_any_wide != 0u)
 		rasterWideTriangles(item, projected, view);
 	barrier();
 }
 
-void rasterNumbered(uint number, uint cluster_count, View view)
+void rasterNumbered(uint number, Share share, uint cluster_count, View view)
 {
 	beginRaster();
-	rasterItem(workItem(args.inputs, args.full_clusters, args.batches, number, cluster_count), view);
+	if (SHARES_WORK && gl_LocalInvocationIndex == 0u)
+		sampled_box_px = 0u;
+	rasterItem(workItem(args.inputs, args.full_clusters, args.batches, number, cluster_count), share, view);
 }
 
 void main()
@@ -80,10 +121,12 @@ void main()
 	PhaseItems items = phaseItems();
 	bool is_rest = SMALL_FIRST && args.phase == PHASE_FIRST;
 	uint count = is_rest ? args.counts.at[0].left_items : items.count;
-	for (uint index = gl_WorkGroupID.x; index < count; index += gl_NumWorkGroups.x)
+	uint shares = SHARES_WORK ? clamp(min(gl_NumWorkGroups.x, FILLING_WORKGROUPS) / max(count, 1u), 1u, MOST_SHARES) : 1u;
+	for (uint i = gl_WorkGroupID.x; i < count * shares; i += gl_NumWorkGroups.x)
 	{
+		uint index = i / shares;
 		uint number = is_rest ? args.left_items.at[index] : itemNumber(items, index);
 		if (is_rest || isOfPhase(items, index))
-			rasterNumbered(number, items.clusters, view);
+			rasterNumbered(number, Share(i % shares, shares), items.clusters, view);
 	}
 }

@@ -34,8 +34,8 @@ void rasterTriangles(WorkItem item, View view)
 	{
 		MicroTriangle triangle = itemTriangle(args.inputs, item, t);
 		uvec3 corners = triangle.vertices;
-		if (!rasterUnlessLarge(target, keptScreenVertex(corners.x), keptScreenVertex(corners.y), keptScreenVertex(corners.z), triangle.payload,
-		                       isTwoSided(item, t), view))
+		if (!rasterUnlessLarge(target, keptScreenVertex(corners.x), keptScreenVertex(corners.y), keptScreenVertex(corners.z), ALL_ROWS,
+		                       triangle.payload, isTwoSided(item, t), view))
 			has_large = 1u;
 	}
 }

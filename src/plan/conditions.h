@@ -166,12 +166,15 @@ inline constexpr Condition kFrustumCulls = { [](const PlanInput& input) { return
 inline constexpr Condition kSoft = { [](const PlanInput& input) { return usesSoft(input) && input.device.buffer_atomics_64; },
 									 "another producer of visibility is chosen, or the device lacks 64-bit buffer atomics", nullptr,
 									 kIsAnAlternative };
-inline constexpr Condition kSmallFirst = {
-	[](const PlanInput& input) { return kSoft.holds(input) && kTessellates.holds(input) && input.view.rate_px <= input.device.most_small_rate_px; },
-	"raster_micro takes all: nothing is tessellated, segments are long, or the device is a processor, where "
-	"two kernels cost more than they save",
-	[](const PlanInput& input) { return kSoft.holds(input) && kTessellates.holds(input); }, "only raster_micro's work can be shared"
-};
+// The metric `detail` leaves large triangles beside small ones in most items: a second pass over them takes longer than the first one saves.
+inline constexpr Condition kSmallFirst = { [](const PlanInput& input) {
+											  return kSoft.holds(input) && kTessellates.holds(input) &&
+													 input.view.rate_px <= input.device.most_small_rate_px && input.options.metric != Metric::Detail;
+										  },
+										   "raster_micro takes all: nothing is tessellated, segments are long, or the device is a processor, where "
+										   "two kernels cost more than they save",
+										   [](const PlanInput& input) { return kSoft.holds(input) && kTessellates.holds(input); },
+										   "only raster_micro's work can be shared" };
 inline constexpr Condition kMayHide = { [](const PlanInput& input) { return culling(input).occlusion && kSoft.holds(input); },
 										"occlusion culling is off, attachments hold depth, or rays are traced" };
 inline constexpr Condition kLooksForHidden = { [](const PlanInput& input) { return kMayHide.holds(input) && input.view.looks_for_hidden; },

@@ -71,6 +71,22 @@ Camera within(const GpuScene& scene)
 	return camera;
 }
 
+// Workgroups of compute passes with so many threads, until the end of the scope.
+struct WithThreads
+{
+	explicit WithThreads(uint32_t count) { gpu().limits.compute_workgroup_threads = count; }
+	~WithThreads() { gpu().limits.compute_workgroup_threads = before; }
+	WithThreads(const WithThreads&) = delete;
+	WithThreads& operator=(const WithThreads&) = delete;
+	uint32_t before = gpu().limits.compute_workgroup_threads;
+};
+
+GpuFrame drawWithThreads(uint32_t threads, const GpuScene& scene, const RenderOptions& options, const Camera& camera)
+{
+	const WithThreads scope(threads);
+	return drawFrame(scene, options, camera);
+}
+
 }  // namespace
 
 TEST_F(smallFirst, theKernelForSmallTrianglesChangesNoPixelAndLeavesNothingThatItCanDo)
@@ -148,6 +164,20 @@ TEST_F(smallFirst, underOcclusionCullingNoPixelChangesWhenTheCameraJumps)
 	}
 	EXPECT_GT(revealed, 0u);
 	EXPECT_GT(left, 0u);
+}
+
+// Few items and large triangles: raster_micro gives an item to several workgroups, and a triangle's rows to several lanes, where workgroups are as
+// large as a GPU's.
+TEST_F(smallFirst, sharingItemsAndRowsChangesNoPixel)
+{
+	if (!hasSoftPath())
+		GTEST_SKIP() << "the device lacks 64-bit buffer atomics";
+	for (const auto& [name, rate] : { std::pair{ "bricks", 0.0f }, { "instances:30", 8.0f } })
+	{
+		const auto scene = gpuScene(name);
+		for (const Camera& camera : { scene->camera, within(*scene) })
+			expectSamePictures(drawWithThreads(256, *scene, softOptions(rate), camera), drawWithThreads(32, *scene, softOptions(rate), camera), name);
+	}
 }
 
 }  // namespace tessera::test
