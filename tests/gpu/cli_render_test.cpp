@@ -3,6 +3,7 @@
 #include "frame/lists.h"
 #include "pipeline/passes.h"
 
+#include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -182,6 +183,42 @@ TEST_F(programWithDevice, clustersThatTheDeviceLacksEndWithFourAndTheReason)
 		EXPECT_EQ(rays["path_reason"], why);
 	}
 }
+
+#ifdef TESSERA_CLUSTER_LAYERS
+
+// Under the layer that emulates clusters: every promised key, and the counts of all four kinds.
+TEST_F(programWithDevice, raysThroughClustersSayWhatTheyAreMadeOf)
+{
+	setenv("VK_INSTANCE_LAYERS", "VK_LAYER_TESSERA_cluster_emulation", 1);
+	setenv("VK_ADD_LAYER_PATH", TESSERA_CLUSTER_LAYERS, 1);
+	setenv("TESSERA_CLUSTER_LAYER_ABORT", "1", 1);
+	const json info = json::parse(runTessera("info --json").output, nullptr, false);
+	const bool traces = info["device"]["gates"]["ray_tracing_pipeline"];
+	const json stats = traces ? statsOf("builtin:bricks --raster rt --rate 6 --size 160x90") : json();
+	unsetenv("VK_INSTANCE_LAYERS");
+	if (!traces)
+		GTEST_SKIP() << "the device cannot trace rays";
+	EXPECT_EQ(info["device"]["gates"]["cluster_acceleration_structure"], true);
+	const json& rays = stats["rays"];
+	EXPECT_EQ(rays["path"], "clusters");
+	EXPECT_TRUE(rays["path_reason"].is_string());
+	for (const char* key : { "templates", "template_instantiations", "full_clusters", "part_triangles", "transient_1x1x1", "transient_2x2x2",
+							 "structures", "generated_vertices", "template_bytes", "cluster_bytes", "cluster_used_bytes", "structure_bytes",
+							 "structure_used_bytes", "operation_bytes", "scene_bytes" })
+		EXPECT_GT(rays.value(key, 0u), 0u) << key;
+	EXPECT_EQ(rays["template_instantiations"], rays["full_clusters"].get<uint64_t>() + rays["part_triangles"].get<uint64_t>());
+	EXPECT_LE(rays["cluster_used_bytes"], rays["cluster_bytes"]);
+	EXPECT_LE(rays["structure_used_bytes"], rays["structure_bytes"]);
+	for (const char* list : { "ray_instantiations", "ray_instantiated_triangles", "ray_instantiated_vertices", "ray_transients",
+							  "ray_transient_triangles", "ray_transient_vertices", "ray_cluster_units", "ray_largest_structure" })
+	{
+		EXPECT_GT(stats["lists"][list].value("wanted", 0u), 0u) << list;
+		EXPECT_LE(stats["lists"][list].value("wanted", 0u), stats["lists"][list].value("capacity", 0u)) << list;
+	}
+	EXPECT_GE(stats["memory"]["rays"], rays["cluster_bytes"].get<uint64_t>() + rays["template_bytes"].get<uint64_t>());
+}
+
+#endif
 
 TEST_F(programWithDevice, anUnknownDeviceEndsWithFour)
 {
