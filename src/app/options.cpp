@@ -281,6 +281,10 @@ const std::array kTable = {
 	OptionDesc{ "sizes", "LIST", "report: pictures to try; default: that of --size", kSizesOption },
 	OptionDesc{ "reference-rate", "PIXELS", "report: rate of the picture that the others are compared with; default: half the finest of --rates",
 				&AppOptions::reference_rate, 1e-3, 1e6 },
+	OptionDesc{
+		"original", "FILE",
+		"report: measure against this model, too: the one that the height maps were made from (glTF, not displaced, in the place of the scene)",
+		&AppOptions::original },
 	OptionDesc{ "max-error-px", "PIXELS",
 				"render: take the coarsest rate whose largest error seen is at most this; report: recommend the cheapest such setting",
 				&AppOptions::max_error_px, 0, 1e6 },

@@ -37,6 +37,7 @@ struct AppOptions : RenderOptions
 	std::vector<Metric> metrics;                 // empty: `metric` alone
 	std::vector<std::array<uint32_t, 2>> sizes;  // empty: width_px x height_px alone
 	std::optional<double> reference_rate;        // of the picture that the others are compared with
+	std::string original;                        // file; empty: none
 	std::optional<double> max_error_px, max_ms;
 	bool resume = false;
 	bool measure_left_out = true;  // report: draw with each thing forced on that the scene does not need

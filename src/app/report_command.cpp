@@ -9,6 +9,7 @@
 #include "base/log.h"
 #include "frame/renderer.h"
 #include "report/metric_fronts.h"
+#include "report/page_original.h"
 
 #include <algorithm>
 
@@ -28,13 +29,16 @@ Status checkOptions(const AppOptions& options)
 	const auto isAutomatic = [](Raster raster) {
 		return raster == Raster::Auto;
 	};
+	if (!options.original.empty() && options.grid_columns * options.grid_rows > 1)
+		return fail(ExitCode::Usage, "--original: stands once, --grid {}x{} asks for copies of the scene; leave one of them out",
+					options.grid_columns, options.grid_rows);
 	if (options.rasters.size() > 1 && std::any_of(options.rasters.begin(), options.rasters.end(), isAutomatic))
 		return fail(ExitCode::Usage, "--rasters: auto is one of the others; it can only stand alone");
 	return {};
 }
 
 // What all runs of a log must have in common: a change of anything else adds runs.
-nlohmann::json factsOf(const CommandLine& line, const BuiltScene& scene, const Device& device)
+nlohmann::json factsOf(const CommandLine& line, const BuiltScene& scene, const Device& device, const std::optional<report::WorldSurface>& original)
 {
 	nlohmann::json options = optionsJson(line.options);
 	for (const std::string_view name : kFreeOptions)
@@ -44,6 +48,8 @@ nlohmann::json factsOf(const CommandLine& line, const BuiltScene& scene, const D
 	facts["device"] = { { "name", device.name }, { "driver", device.driver }, { "api", device.api } };
 	facts["options"] = options;
 	facts["version"] = TESSERA_VERSION;
+	if (original)
+		facts["original"] = { { "triangles", original->triangleCount() }, { "area", original->area() } };
 	return facts;
 }
 
@@ -113,19 +119,42 @@ Result<report::ReportData> dataOf(const CommandLine& line, const BuiltScene& sce
 	return data;
 }
 
-Status measureAndWrite(const CommandLine& line, const BuiltScene& scene, const TessellationTable& table, Device& device)
+// The model of --original, if there is one.
+Result<std::optional<report::WorldSurface>> loadOriginal(const AppOptions& options, const BuiltScene& scene)
+{
+	if (options.original.empty())
+		return std::optional<report::WorldSurface>();
+	if (scene.traits.instanced_triangles > report::kMostBaseTriangles)
+		return badInput("--original: {} has {} triangles over its instances; at most {} are measured against an original", scene.path,
+						scene.traits.instanced_triangles, report::kMostBaseTriangles);
+	const Result<ImportedScene> model = importScene(options.original, {});
+	if (!model)
+		return fail(model.error().code, "--original: {}", model.error().message);
+	Result<report::WorldSurface> surface = report::originalSurface(*model);
+	if (!surface)
+		return fail(surface.error().code, "--original: {}", surface.error().message);
+	if (glm::any(glm::lessThan(surface->high(), scene.world_low)) || glm::any(glm::greaterThan(surface->low(), scene.world_high)))
+		logWarning("--original: {} lies apart from {}, from {} to {}: have the two one coordinate system?", options.original, scene.path,
+				   printVector(surface->low()), printVector(surface->high()));
+	return std::optional(std::move(*surface));
+}
+
+Status measureAndWrite(const CommandLine& line, const BuiltScene& scene, const TessellationTable& table, Device& device,
+					   const std::optional<report::WorldSurface>& original)
 {
 	const std::filesystem::path folder = line.output.empty() ? "report" : line.output;
-	const nlohmann::json facts = factsOf(line, scene, device);
+	const nlohmann::json facts = factsOf(line, scene, device, original);
 	const std::filesystem::path log_path = folder / "runs.jsonl";
 	TRY_ASSIGN(report::RunLog log, line.options.resume ? report::RunLog::resume(log_path, facts) : report::RunLog::start(log_path, facts));
-	const SweepSubject subject = { line.options, scene, table, device, folder };
+	const SweepSubject subject = { line.options, scene, table, device, folder, original ? &*original : nullptr };
 	TRY_ASSIGN(SweepResult sweep, runSweep(subject, log));
 	const bool drew = std::any_of(sweep.runs.begin(), sweep.runs.end(), [](const report::Run& run) { return run.failure.empty(); });
 	if (!drew)
 		return fail(sweep.runs.empty() ? ExitCode::DeviceCannot : ExitCode::BadInput, "report: nothing could be drawn: {}",
 					sweep.runs.empty() ? sweep.closed.begin()->second : sweep.runs[0].failure);
 	TRY_ASSIGN(report::ReportData data, dataOf(line, scene, device, std::move(sweep), facts));
+	if (original)
+		data.original = { line.options.original, original->triangleCount() };
 	TRY(addLeftOut(subject, log, data));
 	TRY(report::writeReport(folder, data));
 	for (const report::Advice& advice : report::recommend(data.runs, data.limits))
@@ -133,6 +162,8 @@ Status measureAndWrite(const CommandLine& line, const BuiltScene& scene, const T
 	for (const report::Cost cost : { report::Cost::Time, report::Cost::Triangles })
 		for (const report::MetricComparison& comparison : report::compareMetrics(data.runs, report::ErrorKind::SeenP99, cost))
 			logInfo("{}", report::describe(comparison, report::ErrorKind::SeenP99));
+	for (const std::string& sentence : report::describeOriginal(data))
+		logInfo("{}", sentence);
 	logInfo("wrote {}", (folder / "report.html").string());
 	return {};
 }
@@ -145,11 +176,12 @@ Status reportCommand(const CommandLine& line)
 	TRY_ASSIGN(const TessellationTable table, loadChosenTable(line.options));
 	TRY_ASSIGN(const BuiltScene scene, loadScene(line.scene, line.options));
 	TRY(chooseCamera(scene, line.options));
+	TRY_ASSIGN(const std::optional<report::WorldSurface> original, loadOriginal(line.options, scene));
 	TRY_ASSIGN(const std::unique_ptr<Device> device, Device::create({ .name = line.options.device, .validate = line.options.validate }));
 	logInfo("device {}, driver {}", device->name, device->driver);
 	if (device->limits.timestamp_ns <= 0)
 		return fail(ExitCode::DeviceCannot, "{}: has no timestamps, GPU times cannot be measured", device->name);
-	TRY(measureAndWrite(line, scene, table, *device));
+	TRY(measureAndWrite(line, scene, table, *device, original));
 	if (const uint32_t count = device->validationMessages())
 		return fail(ExitCode::CheckFailed, "--validate: the validation layer had {}", counted(count, "message"));
 	return {};

@@ -57,7 +57,12 @@ Camera emptyView(const Camera& camera, const BuiltScene& scene)
 class Sweep
 {
 public:
-	Sweep(const SweepSubject& subject, report::RunLog& log) : subject_(subject), log_(log), progress_(!subject.options.quiet) {}
+	Sweep(const SweepSubject& subject, report::RunLog& log)
+		: subject_(subject), log_(log), progress_(!subject.options.quiet), diagonal_(2 * boundingRadius(subject.scene))
+	{
+		if (subject.original)
+			original_.emplace(*subject.original, diagonal_);
+	}
 
 	Result<SweepResult> run()
 	{
@@ -137,6 +142,9 @@ private:
 									   run.gpu_ms.median);
 		if (run.surface)
 			text += fmt::format(", error seen {:.3g} px (99th percentile; largest {:.3g})", run.surface->visible.px.p99, run.surface->visible.px.max);
+		if (run.surface && run.surface->original)
+			text += fmt::format("; {:.3g} from the original (root mean square, world units; the reference surface {:.3g})",
+								run.surface->original->drawn.world.rms, run.surface->original->floor.world.rms);
 		if (run.isCoarsened())
 			text += fmt::format("; coarsened to rate {:.4g}", run.rate_granted);
 		logInfo("{}", text);
@@ -237,27 +245,36 @@ private:
 		TRY_ASSIGN(const report::MicroScene micro, report::tessellate(*host_, view, options.max_split, kMostMicroTriangles));
 		if (!surface_)
 			surface_ = std::make_unique<report::ReferenceSurface>(*host_, view);
-		const report::SurfacePair pair(*host_, view, *surface_, micro);
-		const double diagonal = 2 * boundingRadius(subject_.scene);
 		report::SurfaceErrors errors;
+		TRY(againstReference(view, micro, options, run, draws, errors));
+		if (original_)
+			errors.original = original_->measure(*host_, view, *surface_, micro, progress_);
+		return errors;
+	}
+
+	Status againstReference(const View& view, const report::MicroScene& micro, const AppOptions& options, Run& run, bool draws,
+							report::SurfaceErrors& errors)
+	{
+		const report::SurfacePair pair(*host_, view, *surface_, micro);
 		errors.micro_triangles = micro.triangleCount();
 		errors.reference_mesh_triangles = surface_->triangleCount();
-		errors.visible = report::visibleError(pair, diagonal, {}, progress_);
-		errors.whole = report::wholeSurfaceError(pair, diagonal, {}, progress_);
+		errors.visible = report::visibleError(pair, diagonal_, {}, progress_);
+		errors.whole = report::wholeSurfaceError(pair, diagonal_, {}, progress_);
 		report::includeSeen(errors.whole, errors.visible);
 		errors.numerics = report::measureNumerics(*host_, view, micro);
 		if (!draws)
-			return errors;
+			return {};
 		run.heat = fmt::format("pictures/error_rate{}_{}_{}x{}.png", run.rate_granted, run.setting.metric, options.width_px, options.height_px);
 		const report::ErrorPicture heat = report::errorPicture(pair, kHeatWidth, progress_);
-		TRY(writePng(subject_.folder / run.heat, heat.width, heat.height, report::heatColors(heat), 4));
-		return errors;
+		return writePng(subject_.folder / run.heat, heat.width, heat.height, report::heatColors(heat), 4);
 	}
 
 	const SweepSubject& subject_;
 	report::RunLog& log_;
 	std::optional<reference::HostScene> host_;
 	report::Progress progress_;
+	double diagonal_;  // of the scene's bounds, world units
+	std::optional<report::OriginalMeasure> original_;
 	std::unique_ptr<report::ReferenceSurface> surface_;
 	std::vector<Camera> cameras_;  // of the camera path, or the one that stands still
 	std::vector<uint8_t> sky_;

@@ -21,6 +21,7 @@ struct SweepSubject
 	const TessellationTable& table;
 	Device& device;
 	std::filesystem::path folder;  // of the report
+	const report::WorldSurface* original = nullptr;
 };
 
 struct SweepResult

@@ -41,11 +41,26 @@ struct LogAxis
 		return from + (std::clamp(place, low, high) - low) / (high - low) * (to - from);
 	}
 
+	// About five round values.
+	std::vector<double> evenTicks() const
+	{
+		const double least = std::pow(10, low), most = std::pow(10, high);
+		const double power = std::pow(10, std::floor(std::log10((most - least) / 5)));
+		const double steps = (most - least) / 5 / power;
+		const double step = power * (steps > 5 ? 10 : steps > 2 ? 5 : steps > 1 ? 2 : 1);
+		std::vector<double> ticks;
+		for (double i = std::ceil(least / step); i * step <= most; ++i)
+			ticks.push_back(i * step);
+		return ticks;
+	}
+
 	// Powers of ten; also multiples of them where there is room, and every so many powers where there is little.
 	std::vector<double> ticks() const
 	{
 		std::vector<double> ticks;
 		const double decades = high - low;
+		if (decades < 0.5)
+			return evenTicks();
 		const int step = std::max(1, static_cast<int>(decades / 7));
 		for (int power = static_cast<int>(std::floor(low)); power <= std::ceil(high); ++power)
 			for (const double factor : { 1.0, 1.5, 2.0, 3.0, 5.0, 7.0 })
@@ -112,6 +127,15 @@ std::string axes(const LogAxis& x, const LogAxis& y, const LineChart& chart)
 	return svg;
 }
 
+// With its name above it.
+std::string levelSvg(const ChartLevel& level, const LogAxis& y)
+{
+	const double left = kLeft, right = kWidth - kRight, height = y.at(level.y);
+	return fmt::format(
+		"<path class=\"level\" d=\"M{:g} {:.1f}H{:g}\"/><text class=\"level-name\" x=\"{:g}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>", left,
+		height, right, level.at_right ? right - 6 : left + 6, height - 5, level.at_right ? "end" : "start", escaped(level.name));
+}
+
 std::string pathThrough(const std::vector<ChartPoint>& points, const LogAxis& x, const LogAxis& y)
 {
 	std::string path;
@@ -173,12 +197,16 @@ std::string chartSvg(const LineChart& chart)
 			ys.push_back(p.y);
 		}
 	}
+	for (const ChartLevel& level : chart.levels)
+		ys.push_back(level.y);
 	if (!chart.front.empty())
 		names.emplace_back("fill front", chart.front_name);
 	const LogAxis x = LogAxis::over(xs, kLeft, kWidth - kRight), y = LogAxis::over(ys, kHeight - kBottom, kTop);
 	std::string svg = openSvg(kWidth, kHeight, chart.title) + legend(names) + axes(x, y, chart);
 	if (chart.front.size() > 1)
 		svg += fmt::format("<path class=\"line front\" d=\"{}\"/>", pathThrough(chart.front, x, y));
+	for (const ChartLevel& level : chart.levels)
+		svg += levelSvg(level, y);
 	for (size_t i = 0; i < chart.series.size(); ++i)
 		svg += seriesSvg(chart.series[i], chart.series.size() - 1 - i, x, y);
 	return svg + "</svg>";
@@ -229,15 +257,16 @@ std::string chartStyle()
 	constexpr const char* kDark[kChartColors] = { "#6ea8fe", "#ff8f4a", "#63d17a", "#d18bf0", "#e8c33f", "#41c7dc", "#f783ac", "#a3abb3" };
 	const auto theme = [](const char* ground, const char* text, const char* heading, const char* grid, const char* front, const auto& colors) {
 		std::string css = fmt::format(".plot .ground{{fill:{}}}.plot text{{fill:{}}}.plot .heading{{fill:{}}}.plot .grid{{stroke:{}}}"
-									  ".plot .line.front{{stroke:{}}}.plot .fill.front{{fill:{}}}.plot .hollow{{fill:{}}}",
-									  ground, text, heading, grid, front, front, ground);
+									  ".plot .line.front{{stroke:{}}}.plot .fill.front{{fill:{}}}.plot .hollow{{fill:{}}}.plot .level{{stroke:{}}}",
+									  ground, text, heading, grid, front, front, ground, heading);
 		for (size_t i = 0; i < kChartColors; ++i)
 			css += fmt::format(".plot .line.c{0},.plot .mark.c{0}{{stroke:{1}}}.plot .full.c{0},.plot .fill.c{0},.plot .segment.c{0}{{fill:{1}}}", i,
 							   colors[i]);
 		return css;
 	};
 	std::string css = ".plot text{font-family:system-ui,'DejaVu Sans',sans-serif;font-size:12px}.plot .heading{font-size:14px;font-weight:600}"
-					  ".plot .grid{stroke-width:1;fill:none}.plot .line{fill:none}.plot .line.front{stroke-width:15;stroke-opacity:.6;"
+					  ".plot .grid{stroke-width:1;fill:none}.plot .level{stroke-width:1.5;stroke-dasharray:7 5;fill:none}.plot .line{fill:none}.plot "
+					  ".line.front{stroke-width:15;stroke-opacity:.6;"
 					  "stroke-linejoin:round}.plot .mark{stroke-width:2}.plot .mark:hover{stroke-width:6}.plot .segment:hover{opacity:.7}";
 	css += theme("#ffffff", "#4b5057", "#1b1e22", "#e6e7e9", "#ffd166", kLight);
 	return css + "@media (prefers-color-scheme:dark){" + theme("#191c21", "#b4bac2", "#eceff2", "#30353c", "#6b5a1e", kDark) + "}";

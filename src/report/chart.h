@@ -25,6 +25,14 @@ struct ChartSeries
 	bool joined = true;
 };
 
+// A dashed line across the chart.
+struct ChartLevel
+{
+	double y = 0;
+	std::string name;
+	bool at_right = false;  // where its name stands; else at the left
+};
+
 // A point cloud or curves over logarithmic axes. Values that are not above 0 are drawn at the axis' end.
 struct LineChart
 {
@@ -32,6 +40,7 @@ struct LineChart
 	std::vector<ChartSeries> series;
 	std::vector<ChartPoint> front;  // a line behind the points; may be empty
 	std::string front_name;
+	std::vector<ChartLevel> levels;
 };
 
 struct BarSegment

@@ -114,6 +114,16 @@ TriangleSet::~TriangleSet() = default;
 TriangleSet::TriangleSet(TriangleSet&&) noexcept = default;
 TriangleSet& TriangleSet::operator=(TriangleSet&&) noexcept = default;
 
+std::span<const vec3> TriangleSet::positions() const
+{
+	return { data_->positions.data(), data_->positions.size() - 1 };
+}
+
+std::span<const uvec3> TriangleSet::triangles() const
+{
+	return data_->triangles;
+}
+
 namespace
 {
 

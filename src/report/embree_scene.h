@@ -47,6 +47,9 @@ public:
 	// `slack` of the nearest. The nearest comes first; none when the set is empty.
 	std::vector<NearestTriangle> nearestOfGroups(dvec3 q, double slack, std::span<const uint32_t> group_of) const;
 
+	std::span<const vec3> positions() const;
+	std::span<const uvec3> triangles() const;
+
 	struct Data;
 	const Data& data() const { return *data_; }
 

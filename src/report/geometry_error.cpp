@@ -12,38 +12,15 @@ namespace tessera::report
 namespace
 {
 
-constexpr uint64_t kChunk = 1024;  // samples per piece of parallel work
-constexpr size_t kHills = 32;      // samples from which each largest error is searched for
-// Below these an error is what floats leave.
-constexpr double kLeastPx = 1e-3;
-constexpr double kLeastRelative = 1e-7;  // of the diagonal
-constexpr double kFirstStride = 0.2;     // of a micro-triangle's weights
-
-// Low-discrepancy points of the unit square and cube. Source: Roberts, The Unreasonable Effectiveness of Quasirandom Sequences.
-double fraction(double x)
-{
-	return x - std::floor(x);
-}
-dvec2 pointOfSequence(uint64_t i)
-{
-	constexpr double kG = 1.32471795724474602596;
-	return { fraction(0.5 + double(i) / kG), fraction(0.5 + double(i) / (kG * kG)) };
-}
-dvec3 numbersOfSequence(uint64_t i)
-{
-	constexpr double kG = 1.22074408460575947536;
-	return { fraction(0.5 + double(i) / kG), fraction(0.5 + double(i) / (kG * kG)), fraction(0.5 + double(i) / (kG * kG * kG)) };
-}
-
 using Spots = std::function<std::optional<MicroSpot>(uint64_t)>;
 using Height = std::function<double(const Sample&)>;
 
 // Samples first..end-1 of a sequence of spots, in order.
 std::vector<Sample> measureSpots(const SurfacePair& surfaces, const Spots& spots, uint64_t first, uint64_t end, Progress& progress)
 {
-	std::vector<std::vector<Sample>> chunks((end - first + kChunk - 1) / kChunk);
+	std::vector<std::vector<Sample>> chunks((end - first + kSampleChunk - 1) / kSampleChunk);
 	parallelFor(chunks.size(), [&](size_t chunk) {
-		const uint64_t from = first + chunk * kChunk, to = std::min(end, from + kChunk);
+		const uint64_t from = first + chunk * kSampleChunk, to = std::min(end, from + kSampleChunk);
 		for (uint64_t i = from; i < to; ++i)
 			if (const std::optional<MicroSpot> spot = spots(i))
 				if (const std::optional<Sample> sample = surfaces.measure(*spot))
@@ -56,45 +33,18 @@ std::vector<Sample> measureSpots(const SurfacePair& surfaces, const Spots& spots
 	return samples;
 }
 
-// The largest height that steps of shrinking length within the micro-triangle lead to.
-double climb(const SurfacePair& surfaces, const Sample& start, const Height& height)
-{
-	constexpr double kLastStride = 0.01;
-	MicroSpot spot = start.spot;
-	double best = height(start);
-	for (double stride = kFirstStride; stride > kLastStride;)
-	{
-		bool found = false;
-		for (const dvec2 direction : { dvec2(1, 0), dvec2(0, 1), dvec2(1, -1), dvec2(-1, 0), dvec2(0, -1), dvec2(-1, 1) })
-		{
-			MicroSpot tried = spot;
-			tried.weights += direction * stride;
-			if (tried.weights.x < 0 || tried.weights.y < 0 || tried.weights.x + tried.weights.y > 1)
-				continue;
-			const std::optional<Sample> sample = surfaces.measure(tried);
-			if (!sample || !(height(*sample) > best))
-				continue;
-			best = height(*sample);
-			spot = tried;
-			found = true;
-			break;
-		}
-		stride = found ? stride : stride / 2;
-	}
-	return best;
-}
-
 double largestHeight(const SurfacePair& surfaces, const std::vector<Sample>& samples, const Height& height)
 {
-	std::vector<std::pair<double, uint32_t>> order;
-	order.reserve(samples.size());
-	for (uint32_t i = 0; i < samples.size(); ++i)
-		order.emplace_back(-height(samples[i]), i);
-	const size_t count = std::min(kHills, order.size());
-	std::partial_sort(order.begin(), order.begin() + static_cast<ptrdiff_t>(count), order.end());
-	std::vector<double> heights(count);
-	parallelFor(count, [&](size_t i) { heights[i] = climb(surfaces, samples[order[i].second], height); });
-	return count == 0 ? 0 : *std::max_element(heights.begin(), heights.end());
+	const auto climbFrom = [&](size_t i) {
+		MicroSpot spot = samples[i].spot;
+		return climb(spot.weights, height(samples[i]), [&](dvec2 weights) {
+			spot.weights = weights;
+			const std::optional<Sample> sample = surfaces.measure(spot);
+			return sample ? std::optional(height(*sample)) : std::nullopt;
+		});
+	};
+	return largestByClimbing(
+		samples.size(), [&](size_t i) { return height(samples[i]); }, climbFrom);
 }
 
 Figures figuresOver(const std::vector<Sample>& samples, const Height& height, const Height& weight)

@@ -3,6 +3,7 @@
 #include "report/figures.h"
 #include "report/micro_samples.h"
 #include "report/progress.h"
+#include "report/sampling.h"
 
 namespace tessera::report
 {
@@ -18,13 +19,6 @@ struct RegionError
 	uint64_t samples = 0;
 	double change = 0;       // of any two-sided figure, relative, when the samples were doubled for the last time
 	bool converged = false;  // `change` is at most SamplingLimits::change
-};
-
-struct SamplingLimits
-{
-	uint64_t first = uint64_t(1) << 15;
-	uint64_t most = uint64_t(1) << 20;
-	double change = 0.01;
 };
 
 // Doubles the samples until no figure (relative to the diagonal and in pixels) changes by more than limits.change, or limits.most is reached. The

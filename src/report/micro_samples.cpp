@@ -1,5 +1,7 @@
 #include "report/micro_samples.h"
 
+#include "report/sampling.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -27,8 +29,21 @@ double degreesBetween(dvec3 a, dvec3 b)
 
 }  // namespace
 
+double pxPerWorld(const View& view, dvec3 from_eye)
+{
+	const double focal_px = double(view.focal_y) * view.height_px / 2;
+	if (view.distance_weight == 0)
+		return focal_px * view.unit;
+	return focal_px / std::max(glm::length(from_eye), double(view.near) / view.unit);
+}
+
+dvec3 eyeOf(const View& view)
+{
+	return dvec3(view.eye_high) + dvec3(view.eye_low);
+}
+
 SurfacePair::SurfacePair(const reference::HostScene& scene, const View& view, const ReferenceSurface& surface, const MicroScene& micro)
-	: scene_(scene), view_(view), surface_(surface), micro_(micro), eye_(dvec3(view.eye_high) + dvec3(view.eye_low))
+	: scene_(scene), view_(view), surface_(surface), micro_(micro), eye_(eyeOf(view))
 {
 	double area = 0;
 	areas_.reserve(micro.triangleCount());
@@ -55,13 +70,10 @@ SurfacePair::SurfacePair(const reference::HostScene& scene, const View& view, co
 
 MicroSpot SurfacePair::spotAt(double share, dvec2 within) const
 {
-	const auto found = std::upper_bound(areas_.begin(), areas_.end(), share * area());
-	const auto index = static_cast<uint64_t>(std::min(found, areas_.end() - 1) - areas_.begin());
+	const uint64_t index = pieceAt(areas_, share);
 	const auto instance =
 		static_cast<uint32_t>(std::upper_bound(first_triangle_.begin(), first_triangle_.end(), index) - first_triangle_.begin() - 1);
-	if (within.x + within.y > 1)
-		within = dvec2(1) - within;
-	return { instance, static_cast<uint32_t>(index - first_triangle_[instance]), within };
+	return { instance, static_cast<uint32_t>(index - first_triangle_[instance]), spreadOverTriangle(within) };
 }
 
 SurfacePair::Corners SurfacePair::cornersOf(const MicroSpot& spot) const
@@ -106,14 +118,6 @@ SurfaceSpot SurfacePair::referenceSpot(const MicroSpot& spot, double& domain_are
 	return { mesh.bases[mesh.base_index[spot.triangle]], dvec2(blend(a, b, c, spot.weights)) };
 }
 
-double SurfacePair::pxPerWorld(dvec3 from_eye) const
-{
-	const double focal_px = double(view_.focal_y) * view_.height_px / 2;
-	if (view_.distance_weight == 0)
-		return focal_px * view_.unit;
-	return focal_px / std::max(glm::length(from_eye), double(view_.near) / view_.unit);
-}
-
 std::optional<Sample> SurfacePair::measure(const MicroSpot& spot) const
 {
 	const Corners corners = cornersOf(spot);
@@ -136,7 +140,7 @@ std::optional<Sample> SurfacePair::measure(const MicroSpot& spot) const
 	sample.area_ratio = glm::length(normal) * domain_area / facet_area;
 	sample.normal_deviation = degreesBetween(normal, facet);
 	sample.world_per_mesh = world_per_mesh_[spot.instance];
-	sample.px_per_world = pxPerWorld(dvec3(placements_[spot.instance] * dvec4(reference.point, 1)));
+	sample.px_per_world = pxPerWorld(view_, dvec3(placements_[spot.instance] * dvec4(reference.point, 1)));
 	return sample;
 }
 

@@ -30,6 +30,11 @@ struct Sample
 	double px(double mesh_length) const { return mesh_length * world_per_mesh * px_per_world; }
 };
 
+// Pixels that a world unit covers, seen face-on, at a point given relative to the eye (world units). What is nearer than the near distance counts as
+// if it were there.
+double pxPerWorld(const View& view, dvec3 from_eye);
+dvec3 eyeOf(const View& view);  // world units
+
 // Both surfaces of a scene for one view. All that it is given must outlive it.
 class SurfacePair
 {
@@ -55,7 +60,6 @@ private:
 	};
 	Corners cornersOf(const MicroSpot& spot) const;
 	SurfaceSpot referenceSpot(const MicroSpot& spot, double& domain_area) const;
-	double pxPerWorld(dvec3 world_point) const;
 
 	const reference::HostScene& scene_;
 	View view_;

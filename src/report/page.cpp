@@ -1,6 +1,7 @@
 #include "report/heat.h"
 #include "report/metric_fronts.h"
 #include "report/page_assets.h"
+#include "report/page_original.h"
 #include "report/page_pictures.h"
 #include "report/report_charts.h"
 #include "report/report_table.h"
@@ -79,16 +80,15 @@ std::string tableHtml(const ReportData& data)
 	std::string html =
 		"<h2>All runs</h2><p class=\"quiet\">Shaded rows: the Pareto front by the 99th percentile of what is seen. Hover over a heading "
 		"for what it means; <code>report.csv</code> has more columns.</p><div class=\"scroll\"><table><thead><tr>";
-	for (const Column& column : reportColumns())
-		if (!column.head.empty())
-			html += fmt::format("<th title=\"{}\">{}</th>", escaped(column.hint), escaped(column.head));
+	const std::vector<const Column*> columns = pageColumns(data);
+	for (const Column* column : columns)
+		html += fmt::format("<th title=\"{}\">{}</th>", escaped(column->hint), escaped(column->head));
 	html += "</tr></thead><tbody>";
 	for (const Run& run : data.runs)
 	{
 		html += front.count(&run) ? "<tr class=\"front\">" : "<tr>";
-		for (const Column& column : reportColumns())
-			if (!column.head.empty())
-				html += fmt::format("<td>{}</td>", escaped((column.shown ? column.shown : column.cell)(run)));
+		for (const Column* column : columns)
+			html += fmt::format("<td>{}</td>", escaped((column->shown ? column->shown : column->cell)(run)));
 		html += "</tr>";
 		if (!run.failure.empty())
 			html +=
@@ -237,7 +237,8 @@ Result<std::string> reportHtml(const std::filesystem::path& folder, const Report
 					"content=\"width=device-width,initial-scale=1\"><link rel=\"icon\" href=\"data:,\"><title>{}</title><style>{}{}</style>"
 					"</head><body><main><h1>{}</h1><p class=\"quiet\">{}, driver {}</p>",
 					title, kPageStyle, chartStyle(), title, escaped(data.device), escaped(data.driver));
-	html += adviceHtml(data) + plotsHtml(data) + picturesHtml() + tableHtml(data) + numericsHtml(data) + leftOutHtml(data) + methodHtml(data);
+	html += adviceHtml(data) + plotsHtml(data) + originalHtml(data) + picturesHtml() + tableHtml(data) + numericsHtml(data) + leftOutHtml(data) +
+			methodHtml(data);
 	html += "</main><script type=\"application/json\" id=\"pictures\">" + pictures + "</script><script>";
 	html += kPageScript;
 	return html + "</script></body></html>\n";

@@ -39,6 +39,9 @@ public:
 	// the nearest point. Source: Gauss-Newton with halved steps from each start, Nocedal and Wright, Numerical Optimization, chapter 10.
 	double distance(uint32_t mesh, dvec3 q, const SurfaceSpot& start) const;
 
+	// The surface of a mesh as the triangles that searches start from, their corners on it; null for a mesh without triangles.
+	const TriangleSet* trianglesOf(uint32_t mesh) const { return coarse_[mesh].set.empty() ? nullptr : &coarse_[mesh].set[0]; }
+
 	uint64_t triangleCount() const;
 
 private:

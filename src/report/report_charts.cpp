@@ -1,5 +1,7 @@
 #include "report/report_charts.h"
 
+#include "report/page_original.h"
+
 #include <algorithm>
 #include <functional>
 #include <set>
@@ -54,6 +56,9 @@ std::string hintOf(const Run& run)
 	for (const ErrorKind kind : kErrorKinds)
 		if (const auto error = errorOf(run, kind))
 			hint += fmt::format("\n{:.3g} px {}", *error, nameOf(kind));
+	if (hasOriginal(run))
+		hint += fmt::format("\n{:.3g} from the original, world units (root mean square; 99th percentile {:.3g}, largest {:.3g})",
+							run.surface->original->drawn.world.rms, run.surface->original->drawn.world.p99, run.surface->original->drawn.world.max);
 	if (run.isCoarsened())
 		hint += fmt::format("\ncoarsened to rate {:.4g}", run.rate_granted);
 	return hint;
@@ -125,6 +130,43 @@ std::vector<NamedChart> errorCharts(const ReportData& data, ErrorKind kind)
 	return { { "error_time_" + key, chartSvg(against_time) },
 			 { "error_rate_" + key, chartSvg(against_rate) },
 			 { "error_triangles_" + key, chartSvg(against_triangles) } };
+}
+
+std::vector<NamedChart> originalCharts(const ReportData& data)
+{
+	const auto measured = std::find_if(data.runs.begin(), data.runs.end(), hasOriginal);
+	if (measured == data.runs.end())
+		return {};
+	const AgainstOriginal& ends = *measured->surface->original;
+	const Value time = [](const Run& run) {
+		return run.gpu_ms.median;
+	};
+	const Value triangles = [](const Run& run) {
+		return double(run.counts.micro_triangles);
+	};
+	struct Kind
+	{
+		double Figures::*figure;
+		std::string_view name, key;
+	};
+	std::vector<NamedChart> charts;
+	for (const Kind& kind : { Kind{ &Figures::rms, "root mean square", "rms" }, Kind{ &Figures::p99, "99th percentile", "p99" } })
+		for (const bool over_time : { false, true })
+		{
+			const Value error = [figure = kind.figure](const Run& run) {
+				return run.surface->original->drawn.world.*figure;
+			};
+			const LineChart chart = { over_time ? "Distance to the original against GPU time" : "Distance to the original against triangles",
+									  over_time ? "GPU time per frame, ms (median)" : "micro-triangles drawn",
+									  fmt::format("world units ({})", kind.name),
+									  seriesOf(data, over_time ? time : triangles, error, hasOriginal, {}),
+									  {},
+									  "",
+									  { { ends.floor.world.*kind.figure, "floor: the reference surface", false },
+										{ ends.undisplaced.world.*kind.figure, "not displaced", true } } };
+			charts.push_back({ fmt::format("original_{}_{}", over_time ? "time" : "triangles", kind.key), chartSvg(chart) });
+		}
+	return charts;
 }
 
 namespace

@@ -21,6 +21,13 @@ struct LeftOut
 	std::string measured_with;  // the same measurement stands for all that is kept under one condition: by what that was forced
 };
 
+// The model of --original.
+struct OriginalFacts
+{
+	std::string path;
+	uint64_t triangles = 0;  // over its instances
+};
+
 struct ReportData
 {
 	std::string scene;    // as the user named it
@@ -33,6 +40,7 @@ struct ReportData
 	std::map<std::string, std::string> closed;  // raster paths that the device cannot do, and why
 	std::vector<LeftOut> left_out;
 	uint64_t bytes_kept = 0, bytes_saved = 0;  // by leaving out
+	std::optional<OriginalFacts> original;
 	Limits limits;
 };
 

@@ -1,7 +1,9 @@
 #include "report/report_table.h"
 
 #include "report/metric_fronts.h"
-#include "report/report_data.h"
+#include "report/page_original.h"
+
+#include <algorithm>
 
 namespace tessera::report
 {
@@ -79,6 +81,17 @@ std::string image(const Run& run)
 	return run.image ? exact(double(value(*run.image))) : "";
 }
 
+template <auto value>
+std::string original(const Run& run)
+{
+	return hasOriginal(run) ? exact(double(value(*run.surface->original))) : "";
+}
+template <auto value>
+std::string shownOriginal(const Run& run)
+{
+	return hasOriginal(run) ? rounded(double(value(*run.surface->original))) : "";
+}
+
 std::string psnr(const Run& run)
 {
 	return run.image && run.image->psnr_db ? exact(*run.image->psnr_db) : "";
@@ -117,6 +130,10 @@ std::string shownQuartiles(const Run& run)
 #define OF_REGION(expression)  \
 	[](const RegionError& r) { \
 		return expression;     \
+	}
+#define OF_ORIGINAL(expression)    \
+	[](const AgainstOriginal& r) { \
+		return expression;         \
 	}
 #define OF_IMAGE(expression)  \
 	[](const ImageError& r) { \
@@ -168,6 +185,30 @@ const Column kColumns[] = {
 	{ "whole_normal_p99_deg", "", "", whole<OF_REGION(r.normal_deg.p99)> },
 	{ "whole_samples", "", "", whole<OF_REGION(double(r.samples))> },
 	{ "whole_change", "", "", whole<OF_REGION(r.change)> },
+	{ "original_rms_world", "original rms", "distance to the original, over the whole surface, root mean square, world units",
+	  original<OF_ORIGINAL(r.drawn.world.rms)>, shownOriginal<OF_ORIGINAL(r.drawn.world.rms)> },
+	{ "original_p99_world", "original p99", "the same, 99th percentile, world units", original<OF_ORIGINAL(r.drawn.world.p99)>,
+	  shownOriginal<OF_ORIGINAL(r.drawn.world.p99)> },
+	{ "original_max_world", "original max", "the same, largest, world units", original<OF_ORIGINAL(r.drawn.world.max)>,
+	  shownOriginal<OF_ORIGINAL(r.drawn.world.max)> },
+	{ "original_rms_relative", "original of diagonal", "the same, root mean square, relative to the diagonal of the scene's bounds",
+	  original<OF_ORIGINAL(r.drawn.relative.rms)>, shownOriginal<OF_ORIGINAL(r.drawn.relative.rms)> },
+	{ "original_p99_relative", "", "", original<OF_ORIGINAL(r.drawn.relative.p99)> },
+	{ "original_max_relative", "", "", original<OF_ORIGINAL(r.drawn.relative.max)> },
+	{ "original_rms_px", "original rms px", "the same, root mean square, pixels", original<OF_ORIGINAL(r.drawn.px.rms)>,
+	  shownOriginal<OF_ORIGINAL(r.drawn.px.rms)> },
+	{ "original_p99_px", "", "", original<OF_ORIGINAL(r.drawn.px.p99)> },
+	{ "original_max_px", "", "", original<OF_ORIGINAL(r.drawn.px.max)> },
+	{ "original_samples", "", "", original<OF_ORIGINAL(double(r.drawn.samples))> },
+	{ "original_change", "", "", original<OF_ORIGINAL(r.drawn.change)> },
+	{ "original_floor_rms_world", "floor rms", "distance of the reference surface to the original, root mean square, world units",
+	  original<OF_ORIGINAL(r.floor.world.rms)>, shownOriginal<OF_ORIGINAL(r.floor.world.rms)> },
+	{ "original_floor_p99_world", "", "", original<OF_ORIGINAL(r.floor.world.p99)> },
+	{ "original_floor_max_world", "", "", original<OF_ORIGINAL(r.floor.world.max)> },
+	{ "original_floor_rms_px", "", "", original<OF_ORIGINAL(r.floor.px.rms)> },
+	{ "original_floor_p99_px", "", "", original<OF_ORIGINAL(r.floor.px.p99)> },
+	{ "original_floor_max_px", "", "", original<OF_ORIGINAL(r.floor.px.max)> },
+	{ "original_undisplaced_rms_world", "", "", original<OF_ORIGINAL(r.undisplaced.world.rms)> },
 	{ "psnr_db", "PSNR, dB", "against the picture of the reference rate", psnr, shownPsnr },
 	{ "ssim", "SSIM", "against the picture of the reference rate", image<OF_IMAGE(r.ssim)>, shownSsim },
 	{ "ms_ssim", "MS-SSIM", "against the picture of the reference rate", msSsim, shownMsSsim },
@@ -176,6 +217,11 @@ const Column kColumns[] = {
 	  shortNumber<OF_RUN(r.reference.rate_granted)> },
 	{ "failure", "", "", OF_RUN(r.failure) },
 };
+
+bool isOfOriginal(const Column& column)
+{
+	return column.key.starts_with("original_");
+}
 
 std::string csvCell(const std::string& text)
 {
@@ -193,6 +239,39 @@ std::span<const Column> reportColumns()
 {
 	return kColumns;
 }
+
+std::vector<const Column*> pageColumns(const ReportData& data)
+{
+	const bool has_original = std::any_of(data.runs.begin(), data.runs.end(), hasOriginal);
+	std::vector<const Column*> columns;
+	for (const Column& column : kColumns)
+		if (!column.head.empty() && (has_original || !isOfOriginal(column)))
+			columns.push_back(&column);
+	return columns;
+}
+
+namespace
+{
+
+// The floor is that of any run of its size.
+nlohmann::json originalJson(const ReportData& data)
+{
+	if (!data.original)
+		return {};
+	nlohmann::json json = { { "path", data.original->path }, { "triangles", data.original->triangles }, { "words", describeOriginal(data) } };
+	for (const auto& runs : bySize(data.runs))
+		for (const Run* run : runs)
+			if (hasOriginal(*run))
+			{
+				json["sizes"].push_back({ { "size", { run->setting.width, run->setting.height } },
+										  { "floor", originalErrorJson(run->surface->original->floor) },
+										  { "undisplaced", originalErrorJson(run->surface->original->undisplaced) } });
+				break;
+			}
+	return json;
+}
+
+}  // namespace
 
 std::string reportCsv(const ReportData& data)
 {
@@ -241,6 +320,7 @@ nlohmann::json reportJson(const ReportData& data)
 											{ "worst_ratio", c.worst_ratio },
 											{ "least_px", c.least_px },
 											{ "most_px", c.most_px } });
+	json["original"] = originalJson(data);
 	json["left_out"] = nlohmann::json::array();
 	for (const LeftOut& item : data.left_out)
 		json["left_out"].push_back({ { "kind", item.kind },

@@ -1,6 +1,6 @@
 // The columns of a report's table: the same for the page and the CSV file.
 #pragma once
-#include "report/run.h"
+#include "report/report_data.h"
 
 #include <span>
 
@@ -17,5 +17,7 @@ struct Column
 };
 
 std::span<const Column> reportColumns();
+// Those that the page shows: columns of the original only where there is one.
+std::vector<const Column*> pageColumns(const ReportData& data);
 
 }  // namespace tessera::report

@@ -17,7 +17,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RegionError, to_tessellated_mesh, to_referenc
 								   normal_deg, samples, change, converged)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Numerics, vertices, not_finite, worst_base_ulp, worst_displaced_ulp, worst_share_of_bound, shared_edges,
 								   differing_edges, edge_points, zero_area_triangles, first_problem)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SurfaceErrors, whole, visible, numerics, micro_triangles, reference_mesh_triangles)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OriginalError, to_original_world, to_surface_world, world, relative, px, samples, change, converged)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(AgainstOriginal, drawn, floor, undisplaced, floor_triangles)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReferencePicture, rate_wanted, rate_granted, micro_triangles, picture)
 
 namespace
@@ -51,6 +52,26 @@ static void from_json(const json& from, Setting& setting)
 	from.at("width").get_to(setting.width);
 	from.at("height").get_to(setting.height);
 	setting.forced = from.value("forced", "");
+}
+
+static void to_json(json& to, const SurfaceErrors& errors)
+{
+	to = { { "whole", errors.whole },
+		   { "visible", errors.visible },
+		   { "numerics", errors.numerics },
+		   { "original", optionalJson(errors.original) },
+		   { "micro_triangles", errors.micro_triangles },
+		   { "reference_mesh_triangles", errors.reference_mesh_triangles } };
+}
+
+static void from_json(const json& from, SurfaceErrors& errors)
+{
+	from.at("whole").get_to(errors.whole);
+	from.at("visible").get_to(errors.visible);
+	from.at("numerics").get_to(errors.numerics);
+	readOptional(from.value("original", json()), errors.original);
+	from.at("micro_triangles").get_to(errors.micro_triangles);
+	from.at("reference_mesh_triangles").get_to(errors.reference_mesh_triangles);
 }
 
 static void to_json(json& to, const ImageError& error)
@@ -107,6 +128,14 @@ void finishFigures(Figures& sum, size_t count)
 	sum.p99 /= double(count);
 }
 
+template <typename Error>
+void addSampling(Error& sum, const Error& error)
+{
+	sum.samples += error.samples;
+	sum.change = std::max(sum.change, error.change);
+	sum.converged = sum.converged && error.converged;
+}
+
 RegionError regionAlongPath(std::span<const SurfaceErrors> cameras, RegionError SurfaceErrors::*region)
 {
 	constexpr Figures RegionError::*kFigures[] = {
@@ -120,9 +149,25 @@ RegionError regionAlongPath(std::span<const SurfaceErrors> cameras, RegionError 
 		const RegionError& error = camera.*region;
 		for (const auto figures : kFigures)
 			addFigures(result.*figures, error.*figures);
-		result.samples += error.samples;
-		result.change = std::max(result.change, error.change);
-		result.converged = result.converged && error.converged;
+		addSampling(result, error);
+	}
+	for (const auto figures : kFigures)
+		finishFigures(result.*figures, cameras.size());
+	return result;
+}
+
+OriginalError originalAlongPath(std::span<const SurfaceErrors> cameras, OriginalError AgainstOriginal::*surface)
+{
+	constexpr Figures OriginalError::*kFigures[] = { &OriginalError::to_original_world, &OriginalError::to_surface_world, &OriginalError::world,
+													 &OriginalError::relative, &OriginalError::px };
+	OriginalError result;
+	result.converged = true;
+	for (const SurfaceErrors& camera : cameras)
+	{
+		const OriginalError& error = *camera.original.*surface;
+		for (const auto figures : kFigures)
+			addFigures(result.*figures, error.*figures);
+		addSampling(result, error);
 	}
 	for (const auto figures : kFigures)
 		finishFigures(result.*figures, cameras.size());
@@ -160,6 +205,9 @@ SurfaceErrors alongPath(std::span<const SurfaceErrors> cameras)
 	result.whole = regionAlongPath(cameras, &SurfaceErrors::whole);
 	result.visible = regionAlongPath(cameras, &SurfaceErrors::visible);
 	result.numerics = numericsAlongPath(cameras);
+	if (std::all_of(cameras.begin(), cameras.end(), [](const SurfaceErrors& camera) { return camera.original.has_value(); }))
+		result.original = { originalAlongPath(cameras, &AgainstOriginal::drawn), originalAlongPath(cameras, &AgainstOriginal::floor),
+							originalAlongPath(cameras, &AgainstOriginal::undisplaced), cameras[0].original->floor_triangles };
 	for (const SurfaceErrors& camera : cameras)
 	{
 		result.micro_triangles += camera.micro_triangles;
@@ -167,6 +215,11 @@ SurfaceErrors alongPath(std::span<const SurfaceErrors> cameras)
 	}
 	result.micro_triangles /= cameras.size();
 	return result;
+}
+
+json originalErrorJson(const OriginalError& error)
+{
+	return error;
 }
 
 json runJson(const Run& run)

@@ -4,6 +4,7 @@
 #include "report/geometry_error.h"
 #include "report/image_error.h"
 #include "report/numerics.h"
+#include "report/original_error.h"
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -67,8 +68,9 @@ struct SurfaceErrors
 {
 	RegionError whole, visible;
 	Numerics numerics;
-	uint64_t micro_triangles = 0;           // of the whole surface, nothing culled
-	uint64_t reference_mesh_triangles = 0;  // of the mesh from which searches for nearest points start
+	std::optional<AgainstOriginal> original;  // with --original
+	uint64_t micro_triangles = 0;             // of the whole surface, nothing culled
+	uint64_t reference_mesh_triangles = 0;    // of the mesh from which searches for nearest points start
 };
 
 struct Run
@@ -96,6 +98,7 @@ struct Run
 // camera. `cameras` is not empty.
 SurfaceErrors alongPath(std::span<const SurfaceErrors> cameras);
 
+nlohmann::json originalErrorJson(const OriginalError& error);
 nlohmann::json runJson(const Run& run);
 // Errors: BadInput (not such an object; `where` names it).
 Result<Run> runFromJson(const nlohmann::json& json, const std::string& where);

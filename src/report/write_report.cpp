@@ -49,6 +49,8 @@ Status writeCharts(const std::filesystem::path& folder, const ReportData& data)
 	for (const ErrorKind kind : kErrorKinds)
 		for (NamedChart& chart : errorCharts(data, kind))
 			charts.push_back(std::move(chart));
+	for (NamedChart& chart : originalCharts(data))
+		charts.push_back(std::move(chart));
 	const std::filesystem::path converter = programNamed("rsvg-convert");
 	for (const NamedChart& chart : charts)
 	{

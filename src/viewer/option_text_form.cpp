@@ -11,8 +11,8 @@ namespace
 {
 
 // Say how the program runs, not what it draws.
-constexpr std::string_view kNotOfThePicture[] = { "frames", "warmup", "rates",     "rasters",  "metrics", "sizes", "reference-rate",  "max-error-px",
-												  "max-ms", "resume", "pipelines", "validate", "strict",  "quiet", "measure-left-out" };
+constexpr std::string_view kNotOfThePicture[] = { "frames", "warmup", "rates",     "rasters",  "metrics", "sizes", "reference-rate",   "max-error-px",
+												  "max-ms", "resume", "pipelines", "validate", "strict",  "quiet", "measure-left-out", "original" };
 
 std::string quoted(const std::string& text)
 {

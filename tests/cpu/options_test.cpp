@@ -103,6 +103,7 @@ const std::vector<std::pair<std::string, std::string>> kSamples = {
 	{ "rasters", "soft,indexed" },
 	{ "sizes", "320x240,64x48" },
 	{ "reference-rate", "0.125" },
+	{ "original", "high.glb" },
 	{ "max-error-px", "0.5" },
 	{ "max-ms", "2.25" },
 	{ "measure-left-out", "off" },

@@ -3,6 +3,7 @@
 #include "output/png.h"
 #include "report/chart.h"
 #include "report/heat.h"
+#include "report/page_original.h"
 #include "report/report_data.h"
 #include "report/run_log.h"
 
@@ -48,6 +49,24 @@ report::Run runOf(double rate, const std::string& raster, double ms, double p99_
 	run.image = ImageError{ 31.5, 0.97, std::nullopt, 10, 2, 500 };
 	run.reference = { 0.25, 0.25, 99, "pictures/reference.png" };
 	return run;
+}
+
+// `falls` times the floor away.
+AgainstOriginal againstOriginal(double falls)
+{
+	AgainstOriginal original;
+	for (auto [error, rms] : { std::pair(&original.drawn, 0.25 * falls), std::pair(&original.floor, 0.25), std::pair(&original.undisplaced, 0.5) })
+	{
+		error->world = error->to_original_world = { 4 * rms, rms, 2 * rms };
+		error->to_surface_world = { 3 * rms, rms / 2, rms };
+		error->relative = scaled(error->world, 0.125);
+		error->px = scaled(error->world, 8);
+		error->samples = 65536;
+		error->change = 0.005;
+		error->converged = true;
+	}
+	original.floor_triangles = 1234;
+	return original;
 }
 
 std::vector<report::Run> someRuns()
@@ -209,9 +228,49 @@ TEST(runLog, refusesToGoOnWithOtherFactsAndBrokenLines)
 	}
 }
 
+TEST(runLog, refusesToGoOnWithAnotherOriginal)
+{
+	const fs::path path = scratch("original") / "runs.jsonl";
+	const auto factsOf = [](const char* file, int triangles) {
+		return nlohmann::json{ { "options", { { "original", file } } }, { "original", { { "triangles", triangles } } } };
+	};
+	ASSERT_TRUE(RunLog::start(path, factsOf("high.glb", 12)));
+	EXPECT_TRUE(RunLog::resume(path, factsOf("high.glb", 12)));
+	const auto renamed = RunLog::resume(path, factsOf("other.glb", 12));
+	ASSERT_FALSE(renamed);
+	EXPECT_NE(renamed.error().message.find("options/original is \"high.glb\" there and \"other.glb\" now"), std::string::npos)
+		<< renamed.error().message;
+	const auto changed = RunLog::resume(path, factsOf("high.glb", 13));
+	ASSERT_FALSE(changed);
+	EXPECT_NE(changed.error().message.find("original/triangles is 12 there and 13 now"), std::string::npos) << changed.error().message;
+}
+
+TEST(runLog, alongAPathTheOriginalsFiguresAreThoseOfItsKeysTogether)
+{
+	std::vector<SurfaceErrors> cameras(2);
+	cameras[0].original = againstOriginal(2);
+	cameras[1].original = againstOriginal(4);
+	cameras[1].original->drawn.converged = false;
+	const SurfaceErrors all = alongPath(cameras);
+	ASSERT_TRUE(all.original);
+	const OriginalError& drawn = all.original->drawn;
+	EXPECT_DOUBLE_EQ(drawn.px.max, 32);
+	EXPECT_DOUBLE_EQ(drawn.px.p99, 12);
+	EXPECT_DOUBLE_EQ(drawn.px.rms, std::sqrt((4.0 * 4 + 8 * 8) / 2));
+	EXPECT_FALSE(drawn.converged);
+	EXPECT_EQ(drawn.samples, 2 * 65536u);
+	EXPECT_DOUBLE_EQ(all.original->floor.world.rms, 0.25);
+	EXPECT_EQ(all.original->floor_triangles, 1234u);
+	cameras[1].original.reset();
+	EXPECT_FALSE(alongPath(cameras).original);
+}
+
 TEST(runLog, aRunSurvivesJsonExactly)
 {
-	for (const report::Run& run : someRuns())
+	std::vector<report::Run> runs = someRuns();
+	runs.push_back(runs[0]);
+	runs.back().surface->original = againstOriginal(2);
+	for (const report::Run& run : runs)
 	{
 		const Result<report::Run> again = runFromJson(nlohmann::json::parse(runJson(run).dump()), "test");
 		ASSERT_TRUE(again);
@@ -252,6 +311,58 @@ TEST(heat, brightensWithTheErrorAndIsClearWhereNothingIsSeen)
 	const std::vector<uint8_t> colors = heatColors({ 2, 1, { -1, 1 } });
 	EXPECT_EQ(colors[3], 0);
 	EXPECT_EQ(colors[7], 255);
+}
+
+TEST(report, saysHowFarTheOriginalIsInWordsColumnsAndPlots)
+{
+	const fs::path folder = scratch("against");
+	ReportData data;
+	data.runs = { runOf(8, "soft", 1, 2), runOf(4, "soft", 2, 1), runOf(2, "soft", 4, 0.5) };
+	const std::vector<uint8_t> grey(4 * 4 * 4, 128);
+	for (report::Run& run : data.runs)
+	{
+		run.picture = run.heat = "pictures/one.png";
+		ASSERT_TRUE(writePng(folder / run.picture, 4, 4, grey, 4));
+	}
+	ASSERT_TRUE(writePng(folder / "pictures/reference.png", 4, 4, grey, 4));
+	ASSERT_TRUE(writeReport(folder, data));
+	// Without an original nothing is said of one, and its columns are empty.
+	EXPECT_EQ(textOf(folder / "report.html").find("riginal"), std::string::npos);
+	EXPECT_FALSE(fs::exists(folder / "plots/original_triangles_rms.svg"));
+	EXPECT_TRUE(nlohmann::json::parse(textOf(folder / "report.json"))["original"].is_null());
+
+	data.original = { "high & <low>.glb", 48000 };
+	const double falls[] = { 3, 1.5, 1.04 };
+	for (size_t i = 0; i < 3; ++i)
+		data.runs[i].surface->original = againstOriginal(falls[i]);
+	ASSERT_TRUE(writeReport(folder, data));
+	const std::string html = textOf(folder / "report.html");
+	for (const char* text :
+		 { "high &amp; &lt;low&gt;.glb</code>, 48000 triangles", "itself lies 0.25 world units", "would be 0.5: the height maps take 50 %",
+		   "from rate 8 to 2 the distance to the original goes from 0.75 to 0.26 world units", "From rate 2 on it is within 5 %",
+		   ">original rms</th>", "as 1234 triangles" })
+		EXPECT_NE(html.find(text), std::string::npos) << text;
+	for (const char* plot : { "original_triangles_rms", "original_time_rms", "original_triangles_p99", "original_time_p99" })
+	{
+		const std::string svg = textOf(folder / "plots" / (std::string(plot) + ".svg"));
+		EXPECT_TRUE(isWellFormed(svg)) << plot;
+		EXPECT_NE(svg.find("floor: the reference surface"), std::string::npos) << plot;
+	}
+	const nlohmann::json json = nlohmann::json::parse(textOf(folder / "report.json"));
+	EXPECT_EQ(json["original"]["sizes"][0]["floor"]["world"]["rms"], 0.25);
+	EXPECT_EQ(json["runs"][1]["surface"]["original"]["drawn"]["px"]["rms"], 3);
+	const std::string csv = textOf(folder / "report.csv");
+	for (const char* column : { "original_rms_world", "original_max_px", "original_floor_rms_world" })
+		EXPECT_NE(csv.find("," + std::string(column) + ","), std::string::npos) << column;
+
+	// A map that does not help, and rates that stay away.
+	for (report::Run& run : data.runs)
+	{
+		run.surface->original = againstOriginal(3);
+		run.surface->original->floor.world.rms = 0.6;
+	}
+	EXPECT_NE(describeOriginal(data)[0].find("bring it no nearer"), std::string::npos);
+	EXPECT_NE(describeOriginal(data)[1].find("None of the rates"), std::string::npos);
 }
 
 TEST(report, filesHoldEveryRunAndNeedNoNetwork)

@@ -128,6 +128,64 @@ TEST_F(reportCommand, whatTheSceneDoesNotNeedIsMeasuredByForcingItOn)
 	EXPECT_EQ(again["left_out"], report["left_out"]);
 }
 
+TEST_F(reportCommand, againstTheOriginalTheErrorFallsToTheFloor)
+{
+	// The original: the quad's surface as it is at a fine rate.
+	const std::filesystem::path original = scratchFolder() / "quad.glb", other = scratchFolder() / "other.glb";
+	ASSERT_EQ(runTessera("export builtin:quad --size 96x64 --rate 0.5 --quiet -o " + original.string()).exit_code, 0);
+	ASSERT_EQ(runTessera("export builtin:quad --size 96x64 --rate 4 --quiet -o " + other.string()).exit_code, 0);
+	const std::string arguments = std::string(kArguments) + "original --raster soft --rates 40,8,1 --quiet --original ";
+	const ProgramRun run = runTessera(arguments + original.string());
+	ASSERT_EQ(run.exit_code, 0) << run.errors;
+	const json report = json::parse(textOf("original/report.json"), nullptr, false);
+	ASSERT_TRUE(report.is_object() && report["runs"].size() == 3);
+	const double floor = report["original"]["sizes"][0]["floor"]["world"]["rms"];
+	double last = 1e30;
+	for (const json& one : report["runs"])
+	{
+		const json& error = one["surface"]["original"];
+		EXPECT_EQ(error["floor"]["world"]["rms"], floor);
+		EXPECT_LT(error["drawn"]["world"]["rms"], last / 2) << one["setting"];
+		EXPECT_GT(error["drawn"]["px"]["max"], 0);
+		last = error["drawn"]["world"]["rms"];
+	}
+	EXPECT_LT(floor, last);
+	EXPECT_LT(last, 0.05 * double(report["runs"][0]["surface"]["original"]["undisplaced"]["world"]["rms"]));
+	EXPECT_NE(textOf("original/report.html").find("Against the original"), std::string::npos);
+	EXPECT_NE(textOf("original/report.csv").find(",original_rms_world,"), std::string::npos);
+	EXPECT_TRUE(std::filesystem::exists(scratchFolder() / "original/plots/original_triangles_rms.svg"));
+	// It goes on, but not with another file, nor with the same name for something else.
+	const std::string log = textOf("original/runs.jsonl");
+	EXPECT_EQ(runTessera(arguments + original.string() + " --resume").exit_code, 0);
+	const ProgramRun another = runTessera(arguments + other.string() + " --resume");
+	EXPECT_EQ(another.exit_code, 3);
+	EXPECT_NE(another.errors.find("options/original"), std::string::npos) << another.errors;
+	std::filesystem::copy_file(other, original, std::filesystem::copy_options::overwrite_existing);
+	const ProgramRun changed = runTessera(arguments + original.string() + " --resume");
+	EXPECT_EQ(changed.exit_code, 3);
+	EXPECT_NE(changed.errors.find("original/area"), std::string::npos) << changed.errors;
+	EXPECT_EQ(textOf("original/runs.jsonl"), log);
+}
+
+TEST_F(reportCommand, anOriginalThatCannotBeReadIsNamed)
+{
+	const std::string arguments = std::string(kArguments) + "unreadable --rates 8 --quiet --original ";
+	const ProgramRun missing = runTessera(arguments + "/no/such/model.glb");
+	EXPECT_EQ(missing.exit_code, 3);
+	EXPECT_NE(missing.errors.find("--original: /no/such/model.glb"), std::string::npos) << missing.errors;
+	const std::filesystem::path broken = scratchFolder() / "broken.glb", empty = scratchFolder() / "empty.gltf";
+	ASSERT_TRUE(writeFile(broken, std::string_view("no model")));
+	EXPECT_EQ(runTessera(arguments + broken.string()).exit_code, 3);
+	ASSERT_TRUE(writeFile(empty, std::string_view(R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"scene":0,"nodes":[{"name":"none"}]})")));
+	const ProgramRun nothing = runTessera(arguments + empty.string());
+	EXPECT_EQ(nothing.exit_code, 3);
+	EXPECT_NE(nothing.errors.find("triangles"), std::string::npos) << nothing.errors;
+	for (const ProgramRun& run : { missing, nothing })
+		EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;
+	EXPECT_EQ(runTessera(arguments + "builtin:quad --grid 2x1").exit_code, 2);
+	EXPECT_FALSE(std::filesystem::exists(scratchFolder() / "unreadable"));
+}
+
 TEST_F(reportCommand, alongACameraPathFiguresAreThoseOfItsKeysTogether)
 {
 	const std::string keys[] = {

@@ -12,9 +12,9 @@ std::span<const Panel> panels()
 
 std::span<const std::string_view> optionsWithoutPanel()
 {
-	static constexpr std::string_view kNames[] = { "size",     "frames",         "warmup",       "rates",  "rasters",         "metrics",
-												   "sizes",    "reference-rate", "max-error-px", "max-ms", "resume",          "pipelines",
-												   "validate", "strict",         "quiet",        "force",  "measure-left-out" };
+	static constexpr std::string_view kNames[] = { "size",     "frames",         "warmup",       "rates",  "rasters",          "metrics",
+												   "sizes",    "reference-rate", "max-error-px", "max-ms", "resume",           "pipelines",
+												   "validate", "strict",         "quiet",        "force",  "measure-left-out", "original" };
 	return kNames;
 }
 
