@@ -3,6 +3,7 @@
 #include "app/option_text.h"
 #include "app/scene_load.h"
 #include "base/file.h"
+#include "frame/clock_load.h"
 #include "frame/renderer.h"
 #include "frame/settle.h"
 #include "pipeline/passes.h"
@@ -144,10 +145,11 @@ private:
 	}
 
 	// Warms up until the device has settled, then draws frames until there are enough or the row's time is over; at least one.
-	Status drawFrames(Renderer& renderer, const Camera& camera, Row& row) const
+	Status drawFrames(Renderer& renderer, const Camera& camera, Row& row)
 	{
 		constexpr double kWarmupShare = 0.25;
 		const auto start = Clock::now();
+		TRY_ASSIGN(const std::unique_ptr<ClockLoad> load, ClockLoad::create(*device_));
 		SettleWatch settling(renderer.planInput().device);
 		const auto isWarm = [&](uint32_t frames) {
 			return secondsSince(start) >= settings_.row_seconds * kWarmupShare || (frames >= row.what.options.warmup && settling.isSettled());
@@ -155,11 +157,13 @@ private:
 		for (uint32_t i = 0; !isWarm(i); ++i)
 		{
 			TRY_ASSIGN(const FrameResult result, renderer.renderFrame(camera));
+			TRY(load->submit());
 			settling.add(result.gpu_ms, secondsSince(start));
 		}
 		for (uint32_t i = 0; i < row.what.options.frames && (i == 0 || secondsSince(start) < settings_.row_seconds); ++i)
 		{
 			TRY_ASSIGN(const FrameResult result, renderer.renderFrame(camera));
+			TRY(load->submit());
 			row.frames.add(result);
 		}
 		return {};

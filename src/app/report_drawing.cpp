@@ -45,8 +45,8 @@ report::RunCounts meanCounts(report::RunCounts sum, uint64_t cameras)
 class PathDrawing
 {
 public:
-	PathDrawing(Renderer& renderer, std::span<const Camera> cameras, const AppOptions& options, report::Progress& progress, Run& run)
-		: renderer_(renderer), cameras_(cameras), progress_(progress), run_(run)
+	PathDrawing(Renderer& renderer, ClockLoad& load, std::span<const Camera> cameras, const AppOptions& options, report::Progress& progress, Run& run)
+		: renderer_(renderer), load_(load), cameras_(cameras), progress_(progress), run_(run)
 	{
 		const bool asked = options.frames > 1 || options.warmup > 0;
 		frames_ = shareOf(asked ? options.frames : kFrames);
@@ -98,6 +98,7 @@ private:
 		for (uint32_t i = 0; !isWarm(i); ++i, ++run_.warmup)
 		{
 			TRY_ASSIGN(const FrameResult frame, renderer_.renderFrame(camera));
+			TRY(load_.submit());
 			settling.add(frame.gpu_ms, std::chrono::duration<double>(Clock::now() - start).count());
 			if (i < warmup_)
 				progress_.advance();
@@ -106,6 +107,7 @@ private:
 		for (uint32_t i = 0; i < frames_ && (i < std::min(frames_, kLeastFrames) || share() < 1); ++i, ++run_.frames, progress_.advance())
 		{
 			TRY_ASSIGN(last, renderer_.renderFrame(camera));
+			TRY(load_.submit());
 			frame_ms_.push_back(last.gpu_ms);
 			addPasses(last.passes);
 		}
@@ -125,6 +127,7 @@ private:
 	}
 
 	Renderer& renderer_;
+	ClockLoad& load_;
 	std::span<const Camera> cameras_;
 	report::Progress& progress_;
 	Run& run_;
@@ -135,10 +138,10 @@ private:
 
 }  // namespace
 
-Result<std::vector<DrawnView>> drawPath(Renderer& renderer, std::span<const Camera> cameras, const AppOptions& options, report::Progress& progress,
-										Run& run)
+Result<std::vector<DrawnView>> drawPath(Renderer& renderer, ClockLoad& load, std::span<const Camera> cameras, const AppOptions& options,
+										report::Progress& progress, Run& run)
 {
-	return PathDrawing(renderer, cameras, options, progress, run).draw();
+	return PathDrawing(renderer, load, cameras, options, progress, run).draw();
 }
 
 report::RunBytes bytesOf(const MemoryStats& memory)

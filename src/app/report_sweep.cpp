@@ -194,11 +194,15 @@ private:
 
 	Status measure(const AppOptions& options, Run& run)
 	{
+		if (!load_)
+		{
+			TRY_ASSIGN(load_, ClockLoad::create(subject_.device));
+		}
 		if (reference_picture_.rgba.empty())
 			TRY(makeReference(options));
 		run.reference = reference_;
 		TRY_ASSIGN(const std::unique_ptr<Renderer> renderer, rendererFor(options));
-		TRY_ASSIGN(const std::vector<DrawnView> views, drawPath(*renderer, cameras_, options, progress_, run));
+		TRY_ASSIGN(const std::vector<DrawnView> views, drawPath(*renderer, *load_, cameras_, options, progress_, run));
 		TRY_ASSIGN(const report::Picture picture, pictureOf(*renderer, options));
 		run.bytes = bytesOf(renderer->memory());
 		const BusyDevice busy(*renderer, cameras_[0]);
@@ -273,6 +277,7 @@ private:
 	report::RunLog& log_;
 	std::optional<reference::HostScene> host_;
 	report::Progress progress_;
+	std::unique_ptr<ClockLoad> load_;
 	double diagonal_;  // of the scene's bounds, world units
 	std::optional<report::OriginalMeasure> original_;
 	std::unique_ptr<report::ReferenceSurface> surface_;
