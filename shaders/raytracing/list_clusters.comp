@@ -183,6 +183,7 @@ struct Part
 	uint first_micro;  // its first micro-vertex
 };
 
+// Places are in the order of parts: only occlusion culling changes that, which rays exclude.
 Part loadPart(uint window, uint index)
 {
 	Part part;
