@@ -47,7 +47,7 @@ struct LogAxis
 		const double least = std::pow(10, low), most = std::pow(10, high);
 		const double power = std::pow(10, std::floor(std::log10((most - least) / 5)));
 		const double steps = (most - least) / 5 / power;
-		const double step = power * (steps > 5 ? 10 : steps > 2 ? 5 : steps > 1 ? 2 : 1);
+		const double step = power * (steps > 7 ? 10 : steps > 3.5 ? 5 : steps > 1.5 ? 2 : 1);
 		std::vector<double> ticks;
 		for (double i = std::ceil(least / step); i * step <= most; ++i)
 			ticks.push_back(i * step);

@@ -51,7 +51,7 @@ std::string describeCurve(const std::vector<const Run*>& curve)
 	const OriginalError &coarse = against(*curve[0]).drawn, &fine = against(*curve.back()).drawn, &floor = against(*curve[0]).floor;
 	std::string text = fmt::format("{}x{}, {}: ", first.width, first.height, first.metric);
 	if (curve.size() == 1)
-		text += fmt::format("at rate {:g} the surface lies {} from the original", first.rate, threeDigits(coarse.world.rms));
+		text += fmt::format("at rate {:g} the distance to the original is {}", first.rate, threeDigits(coarse.world.rms));
 	else
 		text += fmt::format("from rate {:g} to {:g} the distance to the original goes from {} to {}", first.rate, curve.back()->setting.rate,
 							threeDigits(coarse.world.rms), threeDigits(fine.world.rms));
