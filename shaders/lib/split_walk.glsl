@@ -90,7 +90,7 @@ bool isUnseen(Child child)
 
 uint decisionOf(Child child)
 {
-	EdgeBase base = EdgeBase(cluster.first_triangle + child.triangle, placement.inverse_scale_squared);
+	EdgeBase base = EdgeBase(cluster.first_triangle + child.triangle, placement.inverse_scale_squared, placement.triangle_reach);
 	return decideTriangle(base, child.corners[0], child.corners[1], child.corners[2], view, rule);
 }
 

@@ -35,6 +35,7 @@ struct EdgeBase
 {
 	uint triangle;                // global index
 	float inverse_scale_squared;  // (mesh units per scaled world unit)^2 of its instance
+	float reach;                  // Placement::triangle_reach of its instance
 };
 
 // Which base edge p-q lies on (from corner e to e + 1); 3: none.
@@ -125,7 +126,7 @@ SHARED_FN precise float tableScaleSquared(Surface surface, View view)
 // Metric `detail`: segments as long as those of `edge`, or longer where the displaced surface stays near its pieces all the same. A part of an edge
 // never asks for more than the edge: splitting ends.
 SHARED_FN EdgeView edgeByDetail(EdgeView edge, Surface surface, EdgeBase base, DomainPoint p, DomainPoint q, vec3 relative_p, vec3 relative_q,
-								View view)
+								float unseen_squared, View view)
 {
 	EdgeView result = edge;
 	uint domain_length = domainLength(p, q);
@@ -137,6 +138,8 @@ SHARED_FN EdgeView edgeByDetail(EdgeView edge, Surface surface, EdgeBase base, D
 		return result;
 	precise float ends_squared = min(rateDistanceSquared(relative_p, view), rateDistanceSquared(relative_q, view));
 	precise float distance_squared = nearestDistanceSquared(relative_p, relative_q, edge.length_squared, ends_squared, view);
+	if (HAS_RAY_FALLOFF)
+		distance_squared = distance_squared + unseen_squared;
 	precise float segment_squared = distance_squared * view.rate_over_focal_squared;
 	precise float tolerance_squared = segment_squared * DETAIL_TOLERANCE_SQUARED;
 	precise float mesh_tolerance_squared = tolerance_squared * base.inverse_scale_squared;
@@ -203,9 +206,12 @@ SHARED_FN float roughnessAlong(Surface surface, uint triangle, DomainPoint p, Do
 // The edge from p to q, domain points of a base triangle with camera-relative positions, by the frame's metric. Symmetric in its ends.
 SHARED_FN EdgeView edgeByMetric(Surface surface, EdgeBase base, DomainPoint p, DomainPoint q, vec3 relative_p, vec3 relative_q, View view)
 {
-	EdgeView edge = viewEdge(relative_p, relative_q, domainLength(p, q), view);
+	precise float unseen_squared = 0.0f;
+	if (HAS_RAY_FALLOFF)
+		unseen_squared = unseenSquared(relative_p, relative_q, base.reach, view);
+	EdgeView edge = viewEdge(relative_p, relative_q, domainLength(p, q), unseen_squared, view);
 	if (HAS_DETAIL && IS_GIVEN(surface.triangle_details))
-		return edgeByDetail(edge, surface, base, p, q, relative_p, relative_q, view);
+		return edgeByDetail(edge, surface, base, p, q, relative_p, relative_q, unseen_squared, view);
 	if (HAS_DISPLACED_EDGES && IS_GIVEN(surface.edge_roughness))
 	{
 		float roughness = 0.0f;

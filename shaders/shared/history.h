@@ -17,7 +17,7 @@ struct FrameHistory
 	uint has_last;                // 0: there was no frame before, or of another size
 	View last_view;
 };
-SHARED_LAYOUT(FrameHistory, 216, last_view, 20)
+SHARED_LAYOUT(FrameHistory, 280, last_view, 20)
 
 SHARED_FN uint pyramidSide(uint side_px, uint level)
 {

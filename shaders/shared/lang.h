@@ -82,6 +82,7 @@ inline constexpr bool HAS_WRAP_MIRROR = true;
 inline constexpr bool HAS_HEIGHT_FOOTPRINTS = false;
 inline constexpr bool HAS_DETAIL = true;
 inline constexpr bool HAS_DISPLACED_EDGES = true;
+inline constexpr bool HAS_RAY_FALLOFF = true;  // a view says whether anything falls off (View::unseen_growth)
 }  // namespace tessera
 
 #else

@@ -42,8 +42,19 @@ struct View
 	// Not 0 where a picture is drawn from another camera than it was tessellated for:
 	vec3 draw_eye;     // that camera, relative to the eye, scaled
 	vec3 draw_offset;  // the way back along right, up and forward
+	// How far outside the view that is tessellated for a point lies, for edges that only rays meet (edge_factor.h). Beyond the right and the left
+	// side: +-dot(side_x, p) - side_x_ahead * dot(ahead, p) - side_x_from; so with y; behind the eye: -dot(ahead, p) - behind_from.
+	vec3 side_x;
+	vec3 side_y;
+	vec3 ahead;
+	float side_x_ahead;
+	float side_y_ahead;
+	float side_x_from;
+	float side_y_from;
+	float behind_from;
+	float unseen_growth;  // X^2 of --ray-falloff; orthographic: over half the view's height squared. 0: nothing falls off
 };
-SHARED_LAYOUT(View, 196, draw_offset, 184)
+SHARED_LAYOUT(View, 256, unseen_growth, 252)
 
 #define SCREEN_SUBPIXELS 256  // positions on screen are rounded to 1/256 pixel
 
@@ -61,8 +72,11 @@ struct InstanceRecord
 	// What its clusters' ranges of vertices and triangles are moved by where each has a place of its own in a frame's buffers (modulo 2^32).
 	uint vertex_place;
 	uint triangle_place;
+	// How far a base triangle reaches from any of its points, world units: the triangle itself; what displacement at scale 1 adds; what one mesh unit
+	// of a displacement offset adds at scale 1.
+	vec3 reach;
 };
-SHARED_LAYOUT(InstanceRecord, 80, triangle_place, 76)
+SHARED_LAYOUT(InstanceRecord, 92, reach, 80)
 
 // Mesh to camera-relative, scaled: the translation is the difference of two-float sums, exact where it matters (near the eye).
 struct Placement
@@ -72,6 +86,7 @@ struct Placement
 	vec3 row2;
 	vec3 translation;
 	float inverse_scale_squared;  // (mesh units per scaled world unit)^2
+	float triangle_reach;         // how far a base triangle reaches, displaced, from any of its points; 0 where nothing asks
 };
 
 SHARED_FN precise float cameraRelative(float high, float low, float eye_high, float eye_low, float unit)
@@ -92,6 +107,16 @@ SHARED_FN precise vec3 scaledRow(vec3 row, float unit)
 	return scaled;
 }
 
+SHARED_FN precise float triangleReach(InstanceRecord instance, View view)
+{
+	precise float by_offset = instance.reach.z * max(view.displacement_offset, -view.displacement_offset);
+	precise float at_scale_one = instance.reach.y + by_offset;
+	precise float displaced = at_scale_one * max(view.displacement_scale, -view.displacement_scale);
+	precise float reach = instance.reach.x + displaced;
+	precise float scaled = reach * view.unit;
+	return scaled;
+}
+
 SHARED_FN Placement placementOf(InstanceRecord instance, View view)
 {
 	Placement placement;
@@ -103,6 +128,9 @@ SHARED_FN Placement placementOf(InstanceRecord instance, View view)
 	placement.translation.z = cameraRelative(instance.translation_high.z, instance.translation_low.z, view.eye_high.z, view.eye_low.z, view.unit);
 	precise float inverse_scale_squared = instance.inverse_scale_squared * view.inverse_unit_squared;
 	placement.inverse_scale_squared = inverse_scale_squared;
+	placement.triangle_reach = 0.0f;
+	if (HAS_RAY_FALLOFF)
+		placement.triangle_reach = triangleReach(instance, view);
 	return placement;
 }
 

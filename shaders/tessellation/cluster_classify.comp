@@ -49,7 +49,7 @@ void decideTriangles(ClusterRecord cluster, Placement placement, PlacedReach rea
 	{
 		uint triangle = args.triangles.at[cluster.first_triangle + t];
 		ClassifiedCorner p = cornerOf(triangle, 0u), q = cornerOf(triangle, 1u), r = cornerOf(triangle, 2u);
-		EdgeBase base = EdgeBase(cluster.first_triangle + t, placement.inverse_scale_squared);
+		EdgeBase base = EdgeBase(cluster.first_triangle + t, placement.inverse_scale_squared, placement.triangle_reach);
 		uint decision = decideTriangle(base, p, q, r, view, args.rule);
 		if (decision != ALL_ONE)
 			tessellated = 1u;

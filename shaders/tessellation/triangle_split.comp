@@ -115,7 +115,7 @@ Child decideChild(uint index)
 	PlacedReach reach;
 	if (HAS_CULLING)
 		reach = split_reaches[child.owner];
-	EdgeBase base = EdgeBase(split_triangles[child.owner], placement.inverse_scale_squared);
+	EdgeBase base = EdgeBase(split_triangles[child.owner], placement.inverse_scale_squared, placement.triangle_reach);
 	bool culled = isOutOfView(p, q, r, reach, args.cull_frustum, view);
 	child.decision = culled ? DECISION_CULLED : decideTriangle(base, p, q, r, view, args.rule);
 	return child;

@@ -42,6 +42,7 @@ Status drawMesh(const Subject& subject, const AppOptions& options, Device& devic
 {
 	RenderOptions frame = options;
 	frame.smooth_normals = true;  // faceted shading has no normals to write
+	frame.ray_falloff = 0;        // the mesh is seen from elsewhere later
 	TRY_ASSIGN(const std::unique_ptr<Renderer> renderer, Renderer::create(device, subject.scene, subject.table, framePasses(), frame, kDumpOutputs));
 	const auto readRound = [&](uint32_t round) -> Status {
 		if (round == 0)

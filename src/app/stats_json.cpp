@@ -116,6 +116,7 @@ ordered_json raysJson(const RunFacts& facts)
 		{ "path_reason", path.reason },
 		{ "scene_bytes", rays.scene_bytes },
 		{ "scratch_bytes", rays.scratch_bytes },
+		{ "falloff", kRayFalloff.holds(facts.input) ? facts.input.options.ray_falloff : 0 },
 	};
 	json.update(rays.clusters.built ? clustersJson(rays.clusters) : trianglesJson(rays));
 	return json;

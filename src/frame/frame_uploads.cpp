@@ -85,7 +85,7 @@ std::vector<InstanceRecord> instanceRecords(const BuiltScene& scene)
 	for (const Instance& instance : scene.instances)
 	{
 		const MeshRanges& range = ranges[instance.mesh];
-		InstanceRecord record = instanceRecord(instance);
+		InstanceRecord record = instanceRecord(instance, scene.mesh_bounds[instance.mesh]);
 		record.vertex_place = vertices - range.first_vertex;
 		record.triangle_place = triangles - range.first_triangle;
 		records.push_back(record);

@@ -173,6 +173,7 @@ private:
 		request.displacement_scale = input_.options.displacement_scale;
 		request.displacement_offset = input_.options.displacement_offset;
 		request.metric = input_.options.metric;
+		request.ray_falloff = kRayFalloff.holds(input_) ? input_.options.ray_falloff : 0;
 		return request;
 	}
 

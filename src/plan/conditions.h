@@ -113,7 +113,7 @@ inline constexpr std::string_view kIsAnAlternative = "it stands for what is done
 inline constexpr std::string_view kIsLessCode = "it is what is known where the general code is left out: force that";
 inline constexpr std::string_view kNeedsDisplacement = "nothing is displaced: force HAS_DISPLACEMENT with it";
 inline constexpr std::string_view kTracesNothing = "no ray would be traced: --raster rt, --shadows and --ao show what rays cost";
-inline constexpr std::string_view kChoosesTriangles = "--metric decides which triangles there are";
+inline constexpr std::string_view kChoosesTriangles = "options decide which triangles there are";
 // Nothing but time depends on it.
 inline bool always(const PlanInput&)
 {
@@ -236,6 +236,11 @@ inline constexpr Condition kShadows = { [](const PlanInput& input) { return trac
 										"--shadows is off, the view shows no light, or the device cannot trace rays" };
 inline constexpr Condition kAmbientOcclusion = { [](const PlanInput& input) { return tracesAmbient(input) && input.device.rays; },
 												 "--ao is 0, the view shows no light, or the device cannot trace rays" };
+// What no pixel shows but rays of light meet is cut more coarsely the farther out of view it lies.
+inline constexpr Condition kRayFalloff = {
+	[](const PlanInput& input) { return tracesLight(input) && input.device.rays && input.options.ray_falloff > 0 && input.options.rate > 0; },
+	"no shadows or ambient occlusion are traced, --ray-falloff is 0, or nothing is tessellated", nullptr, kChoosesTriangles
+};
 inline constexpr Condition kRtMixedSides = { [](const PlanInput& input) { return kRt.holds(input) && kMixedSides.holds(input); },
 											 "all materials show the same sides", nullptr, kTracesNothing };
 inline constexpr Condition kRtMixedSidesOfParts = { [](const PlanInput& input) { return kRtMixedSides.holds(input) && kTessellates.holds(input); },

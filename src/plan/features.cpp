@@ -49,6 +49,7 @@ std::vector<Feature> shaderFeatures(const PlanInput& input)
 		{ "HAS_AMBIENT_OCCLUSION", 26, &kAmbientOcclusion },
 		{ "HAS_DETAIL", 30, &kDetailMetric },
 		{ "HAS_DISPLACED_EDGES", 31, &kDisplacedMetric },
+		{ "HAS_RAY_FALLOFF", 53, &kRayFalloff },
 		{ "DIRECTIONS_ARE_NORMALS", 22, &kDirectionsAreNormals },
 	};
 	std::vector<Feature> features;

@@ -91,6 +91,7 @@ struct RenderOptions
 	bool shadows = false;           // of the sun, by rays
 	uint32_t ao_samples = 0;        // rays per pixel for ambient occlusion; 0: none
 	float ao_radius_world = 0;      // what is farther does not occlude; 0: a tenth of the scene's radius
+	float ray_falloff = 4;          // how fast segments grow outside the view where only rays of light meet them; 0: not at all
 	RayPath ray_path = RayPath::Auto;
 	// Where rays' structures are built from clusters:
 	bool transient_units = true;   // triangles of factor 1 in mixed clusters are built together, else each as its pattern

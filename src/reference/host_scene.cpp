@@ -46,7 +46,7 @@ HostScene::HostScene(const BuiltScene& scene, const TessellationTable& table, Me
 	for (const HeightMapData& map : scene.height_maps)
 		height_maps_.push_back(hostRecord(map));
 	for (const Instance& instance : scene.instances)
-		instances_.push_back(instanceRecord(instance));
+		instances_.push_back(instanceRecord(instance, scene.mesh_bounds[instance.mesh]));
 	for (const TableConfig& config : table.configs)
 		patterns_.push_back({ config.first_triangle, config.first_vertex, config.triangle_count | uint32_t(config.vertex_count) << 16 });
 	fillStandIns();

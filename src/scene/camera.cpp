@@ -166,6 +166,30 @@ static void setDerived(View& view, const Basis& basis)
 	view.ray_y = vec3(up * (-2.0 / view.height_px));
 }
 
+// Rounding of a point's distance from a side of the view, in scaled units, where the farthest distance of the scene is 1 to 2.
+constexpr double kSideRounding = 1e-5;
+
+// The view's sides, for edges out of it (shared/edge_factor.h).
+static void setSides(View& view, const Camera& camera, const ViewRequest& request, const Basis& basis)
+{
+	if (request.ray_falloff <= 0)
+		return;
+	const double focal_x = double(view.focal_x), focal_y = double(view.focal_y);
+	// Perspective: sides meet in the eye, |x| focal = ahead. Orthographic: they are parallel, |x| = 1 / focal.
+	const double norm_x = camera.orthographic ? 1 : std::hypot(focal_x, 1), norm_y = camera.orthographic ? 1 : std::hypot(focal_y, 1);
+	view.side_x = vec3(basis.right * (camera.orthographic ? 1 : focal_x / norm_x));
+	view.side_y = vec3(basis.up * (camera.orthographic ? 1 : focal_y / norm_y));
+	view.ahead = vec3(basis.forward);
+	view.side_x_ahead = camera.orthographic ? 0 : static_cast<float>(1 / norm_x);
+	view.side_y_ahead = camera.orthographic ? 0 : static_cast<float>(1 / norm_y);
+	view.side_x_from = static_cast<float>(kSideRounding + (camera.orthographic ? 1 / focal_x : 0));
+	view.side_y_from = static_cast<float>(kSideRounding + (camera.orthographic ? 1 / focal_y : 0));
+	view.behind_from = static_cast<float>(kSideRounding);
+	// Where all is equally far, what is out of view is measured by half the view's height.
+	const double growth = double(request.ray_falloff) * (camera.orthographic ? 2 / camera.height_world : 1);
+	view.unseen_growth = static_cast<float>(growth * growth);
+}
+
 Result<View> makeView(const Camera& camera, const BuiltScene& scene, const ViewRequest& request)
 {
 	TRY(checkCamera(camera, request));
@@ -189,6 +213,7 @@ Result<View> makeView(const Camera& camera, const BuiltScene& scene, const ViewR
 	view.width_px = request.width_px;
 	view.height_px = request.height_px;
 	setDerived(view, basis);
+	setSides(view, camera, request, basis);
 	return view;
 }
 
@@ -220,7 +245,33 @@ double inverseScaleSquared(const Instance& instance)
 	return scale_squared > 1e-60 ? std::min(1 / scale_squared, 1e30) : 0;
 }
 
-InstanceRecord instanceRecord(const Instance& instance)
+namespace
+{
+
+// Most that the instance's matrix stretches a length, at most a little more where its axes are not at right angles: the norm of the matrix times
+// the transposed one.
+double mostStretch(const Instance& instance)
+{
+	const dmat3 axes(instance.world);
+	double squared = 0;
+	for (int i = 0; i < 3; ++i)
+		squared =
+			std::max(squared, std::abs(glm::dot(axes[i], axes[0])) + std::abs(glm::dot(axes[i], axes[1])) + std::abs(glm::dot(axes[i], axes[2])));
+	return std::sqrt(squared);
+}
+
+// InstanceRecord::reach, rounded up.
+vec3 reachOf(const Instance& instance, const DisplacedBounds& bounds)
+{
+	const bool has_directions = bounds.direction_low != vec3(0) || bounds.direction_high != vec3(0);
+	const double stretch = mostStretch(instance) * 1.0001;
+	const double height = std::max(std::abs(double(bounds.reach_low)), std::abs(double(bounds.reach_high)));
+	return vec3(dvec3(double(bounds.longest_edge) + double(bounds.bulge), height, has_directions ? 1 : 0) * stretch);
+}
+
+}  // namespace
+
+InstanceRecord instanceRecord(const Instance& instance, const DisplacedBounds& bounds)
 {
 	const dmat4& world = instance.world;
 	const dvec3 translation = dvec3(world[3]);
@@ -233,6 +284,7 @@ InstanceRecord instanceRecord(const Instance& instance)
 	record.inverse_scale_squared = static_cast<float>(inverseScaleSquared(instance));
 	record.mesh = instance.mesh;
 	record.mirrored = glm::determinant(dmat3(world)) < 0 ? 1 : 0;
+	record.reach = reachOf(instance, bounds);
 	return record;
 }
 

@@ -31,6 +31,7 @@ struct ViewRequest
 	float displacement_scale = 1;
 	float displacement_offset = 0;  // mesh units, before the scale
 	Metric metric = Metric::Edge;
+	float ray_falloff = 0;  // how fast segments grow outside the view; 0: not at all
 };
 
 // A camera that shows the whole scene.
@@ -59,7 +60,8 @@ float rateOverFocalSquared(const Camera& camera, uint32_t height_px, double rate
 // 1 / (world units per mesh unit)^2, the mean over the axes, as mip levels are found with; 0 for an instance without extent.
 double inverseScaleSquared(const Instance& instance);
 
-InstanceRecord instanceRecord(const Instance& instance);
+// `bounds`: of the instance's mesh.
+InstanceRecord instanceRecord(const Instance& instance, const DisplacedBounds& bounds);
 
 // What the host can say of factors before the frame: an upper bound over all instances, for the metric of the request.
 struct FactorBound

@@ -88,6 +88,7 @@ const std::vector<std::pair<std::string, std::string>> kSamples = {
 	{ "shadows", "on" },
 	{ "ao", "16" },
 	{ "ao-radius", "0.25" },
+	{ "ray-falloff", "2.5" },
 	{ "rays", "khr" },
 	{ "transient-1x1x1", "off" },
 	{ "transient-2x2x2", "off" },

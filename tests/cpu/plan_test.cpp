@@ -461,8 +461,28 @@ TEST(framePlan, nothingOfRaysIsPlannedUntilAskedFor)
 	expectDropped(plan, { "build_geometry", "place_instances", "build_scene", "trace_visibility", "trace_shadows", "trace_ambient" });
 	expectLeftOut(plan,
 				  { "ray_instances", "ray_geometry", "ray_scene", "ray_scratch", "sun_visibility", "ambient_visibility", "expanded_triangles" });
-	for (const char* feature : { "HAS_RAYS", "HAS_SHADOWS", "HAS_AMBIENT_OCCLUSION" })
+	for (const char* feature : { "HAS_RAYS", "HAS_SHADOWS", "HAS_AMBIENT_OCCLUSION", "HAS_RAY_FALLOFF" })
 		EXPECT_FALSE(featureOn(plan, feature)) << feature;
+}
+
+TEST(framePlan, segmentsFallOffOutOfViewOnlyWhereRaysOfLightMeetThem)
+{
+	PlanInput input = fullInput();
+	input.device.rays = true;
+	input.options.raster = Raster::Rt;
+	EXPECT_FALSE(featureOn(planOf(input), "HAS_RAY_FALLOFF")) << "what is out of view is culled";
+	input.options.shadows = true;
+	EXPECT_TRUE(featureOn(planOf(input), "HAS_RAY_FALLOFF"));
+	PlanInput debug = input, off = input, coarse = input, ambient = input;
+	debug.options.view = ViewMode::Factors;
+	EXPECT_FALSE(featureOn(planOf(debug), "HAS_RAY_FALLOFF")) << "the view shows no light";
+	off.options.ray_falloff = 0;
+	EXPECT_FALSE(featureOn(planOf(off), "HAS_RAY_FALLOFF"));
+	coarse.options.rate = 0;
+	EXPECT_FALSE(featureOn(planOf(coarse), "HAS_RAY_FALLOFF"));
+	ambient.options.shadows = false;
+	ambient.options.ao_samples = 4;
+	EXPECT_TRUE(featureOn(planOf(ambient), "HAS_RAY_FALLOFF"));
 }
 
 TEST(framePlan, raysFindVisibilityInPlaceOfRasterisers)

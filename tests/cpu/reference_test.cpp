@@ -146,7 +146,7 @@ TEST(edgeFactor, edgesShorterThanSixteenDomainUnitsGetOneSegmentWhateverTheRate)
 {
 	for (uint32_t length = 0; length <= 4096; ++length)
 	{
-		const EdgeView edge = viewEdge(vec3(0), vec3(1), length, View{});
+		const EdgeView edge = viewEdge(vec3(0), vec3(1), length, 0, View{});
 		ASSERT_EQ(edge.limit, length / 8);
 		for (uint32_t c = 2; c <= 600; ++c)
 			ASSERT_EQ(edgeHasAtLeast(c, edgeOf(1, 0, edge.limit)), c <= length / 8);
@@ -178,7 +178,7 @@ TEST(edgeFactor, isSymmetricInTheEndsBitForBit)
 		const vec3 p = random.point(2), q = random.point(2);
 		const DomainPoint a = random.domain(), b = random.domain();
 		ASSERT_EQ(domainLength(a, b), domainLength(b, a));
-		const EdgeView forth = viewEdge(p, q, domainLength(a, b), view), back = viewEdge(q, p, domainLength(b, a), view);
+		const EdgeView forth = viewEdge(p, q, domainLength(a, b), 0, view), back = viewEdge(q, p, domainLength(b, a), 0, view);
 		ASSERT_EQ(floatBitsToUint(forth.length_squared), floatBitsToUint(back.length_squared));
 		ASSERT_EQ(floatBitsToUint(forth.unit_squared), floatBitsToUint(back.unit_squared));
 	}

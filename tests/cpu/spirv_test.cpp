@@ -116,6 +116,8 @@ HostLayout viewLayout()
 		LAYOUT(16, View, near, distance_weight, distance_floor_squared, rate_over_focal_squared, sample_over_focal_squared, displacement_scale,
 			   displacement_offset, width_px, height_px, width_subpixels, height_subpixels, ray_first, ray_x, ray_y, draw_eye, draw_offset);
 	layout.fields.insert(layout.fields.end(), rest.fields.begin(), rest.fields.end());
+	const HostLayout sides = LAYOUT(9, View, side_x, side_y, ahead, side_x_ahead, side_y_ahead, side_x_from, side_y_from, behind_from, unseen_growth);
+	layout.fields.insert(layout.fields.end(), sides.fields.begin(), sides.fields.end());
 	return layout;
 }
 
@@ -134,8 +136,8 @@ std::vector<HostLayout> hostLayouts()
 {
 	return {
 		viewLayout(),
-		LAYOUT(10, InstanceRecord, row0, row1, row2, translation_high, translation_low, inverse_scale_squared, mesh, mirrored, vertex_place,
-			   triangle_place),
+		LAYOUT(11, InstanceRecord, row0, row1, row2, translation_high, translation_low, inverse_scale_squared, mesh, mirrored, vertex_place,
+			   triangle_place, reach),
 		LAYOUT(4, ClusterRecord, first_vertex, first_triangle, counts, material),
 		LAYOUT(2, MeshRecord, first_cluster, cluster_count),
 		LAYOUT(2, ClusterRef, instance, cluster),
@@ -375,6 +377,8 @@ TEST(sharedFloatCode, isNeverContractedAndUsesOnlyExactOperations)
 	EXPECT_GT(check.operations, 200u);
 	for (const char* name : { "edgeHasAtLeast",
 							  "viewEdge",
+							  "unseenSquared",
+							  "triangleReach",
 							  "weighted",
 							  "weightedVec3",
 							  "normalized",
