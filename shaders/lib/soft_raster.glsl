@@ -124,6 +124,26 @@ bool orient(inout ScreenVertex b, inout ScreenVertex c, int area_sign, bool two_
 	return true;
 }
 
+// Depth over a triangle: linear in its edge functions. The same bits whoever takes the triangle, one lane, several or a workgroup: so each step is one
+// operation that no compiler can round in two ways.
+struct DepthPlane
+{
+	float base;
+	float slope_b;
+	float slope_c;
+};
+
+// `area`: doubled, positive, 1/256 pixels squared. Edge functions are lowered by their bias, which `base` makes up for.
+DepthPlane depthPlane(ScreenVertex a, ScreenVertex b, ScreenVertex c, float area, int bias_b, int bias_c)
+{
+	precise float inverse_area = 1.0 / area;
+	precise float slope_b = (b.depth - a.depth) * inverse_area;
+	precise float slope_c = (c.depth - a.depth) * inverse_area;
+	return DepthPlane(fma(float(bias_c), slope_c, fma(float(bias_b), slope_b, a.depth)), slope_b, slope_c);
+}
+
+float depthAt(DepthPlane plane, float edge_b, float edge_c) { return fma(edge_c, plane.slope_c, fma(edge_b, plane.slope_b, plane.base)); }
+
 // A lane's rows of a triangle: every `count`-th, from the `index`-th on.
 struct Rows
 {
@@ -154,10 +174,7 @@ void rasterSmall(VisibilityRef target, ScreenVertex a, ScreenVertex b, ScreenVer
 	int row_a = bc.x * from_b.y - bc.y * from_b.x - edgeBias(bc);
 	int row_b = ca.x * from_a.y - ca.y * from_a.x - bias_b;
 	int row_c = ab.x * from_a.y - ab.y * from_a.x - bias_c;
-	float inverse_area = 1.0 / float(abs(area));
-	float slope_b = (b.depth - a.depth) * inverse_area;
-	float slope_c = (c.depth - a.depth) * inverse_area;
-	float depth = a.depth + float(bias_b) * slope_b + float(bias_c) * slope_c;
+	DepthPlane plane = depthPlane(a, b, c, float(abs(area)), bias_b, bias_c);
 	int row_step = SUBPIXELS * rows.count;
 	for (int y = box.low.y; y <= box.high.y; y += rows.count)
 	{
@@ -165,7 +182,7 @@ void rasterSmall(VisibilityRef target, ScreenVertex a, ScreenVertex b, ScreenVer
 		for (int x = box.low.x; x <= box.high.x; ++x)
 		{
 			if ((edge_a | edge_b | edge_c) >= 0)
-				writeVisibility(target, ivec2(x, y), depth + float(edge_b) * slope_b + float(edge_c) * slope_c, payload, view);
+				writeVisibility(target, ivec2(x, y), depthAt(plane, float(edge_b), float(edge_c)), payload, view);
 			edge_a -= bc.y * SUBPIXELS;
 			edge_b -= ca.y * SUBPIXELS;
 			edge_c -= ab.y * SUBPIXELS;

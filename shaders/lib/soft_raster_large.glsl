@@ -68,6 +68,7 @@ void rasterWide(VisibilityRef target, ScreenVertex a, ScreenVertex b, ScreenVert
 	ivec2 ab = b.position - a.position;
 	ivec2 ac = c.position - a.position;
 	float area = float(int64_t(ab.x) * int64_t(ac.y) - int64_t(ab.y) * int64_t(ac.x));
+	DepthPlane plane = depthPlane(a, b, c, area, edgeBias(ca), edgeBias(ab));
 	ivec2 lane = ivec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3);
 	int rows = int(gl_WorkGroupSize.x >> 3);
 	for (int y = box.low.y + lane.y; y <= box.high.y; y += rows)
@@ -79,8 +80,7 @@ void rasterWide(VisibilityRef target, ScreenVertex a, ScreenVertex b, ScreenVert
 			int64_t edge_c = edgeAt(a.position, ab, point);
 			if ((edge_a | edge_b | edge_c) < 0l)
 				continue;
-			float depth = a.depth + (b.depth - a.depth) * (float(edge_b) / area) + (c.depth - a.depth) * (float(edge_c) / area);
-			writeVisibility(target, ivec2(x, y), depth, payload, view);
+			writeVisibility(target, ivec2(x, y), depthAt(plane, float(edge_b), float(edge_c)), payload, view);
 		}
 }
 
