@@ -170,7 +170,6 @@ TEST(heightRanges, aFootprintInAFlatPartOfTheMapIsTight)
 	for (uint32_t y = 0; y < 256; ++y)
 		std::memset(image.texels.data() + 256 * y + 128, 255, 128);
 	const HeightMapData map = mapOf(image, Wrap::ClampToEdge);
-	Texture texture;
 	const HeightRanges ranges(map);
 	// At x = 1/4 the coarsest mip that has texels of one half alone is the one of 2 x 2, whose blend reads both.
 	EXPECT_EQ(ranges.over(vec2(0.2f), vec2(0.21f)).low, 0.0f);
