@@ -103,12 +103,14 @@ private:
 	{
 		if (device_)
 			messages_ += device_->validationMessages();
+		clock_load_.reset();
 		device_.reset();
 	}
 
 	Status makeDevice()
 	{
 		TRY_ASSIGN(device_, Device::create({ settings_.base.device, settings_.base.validate, settings_.base.pipeline_statistics }));
+		TRY_ASSIGN(clock_load_, ClockLoad::create(*device_));
 		return {};
 	}
 
@@ -145,11 +147,10 @@ private:
 	}
 
 	// Warms up until the device has settled, then draws frames until there are enough or the row's time is over; at least one.
-	Status drawFrames(Renderer& renderer, const Camera& camera, Row& row)
+	Status drawFrames(Renderer& renderer, const Camera& camera, Row& row) const
 	{
 		constexpr double kWarmupShare = 0.25;
 		const auto start = Clock::now();
-		TRY_ASSIGN(const std::unique_ptr<ClockLoad> load, ClockLoad::create(*device_));
 		SettleWatch settling(renderer.planInput().device);
 		const auto isWarm = [&](uint32_t frames) {
 			return secondsSince(start) >= settings_.row_seconds * kWarmupShare || (frames >= row.what.options.warmup && settling.isSettled());
@@ -157,13 +158,13 @@ private:
 		for (uint32_t i = 0; !isWarm(i); ++i)
 		{
 			TRY_ASSIGN(const FrameResult result, renderer.renderFrame(camera));
-			TRY(load->submit());
+			TRY(clock_load_->submit());
 			settling.add(result.gpu_ms, secondsSince(start));
 		}
 		for (uint32_t i = 0; i < row.what.options.frames && (i == 0 || secondsSince(start) < settings_.row_seconds); ++i)
 		{
 			TRY_ASSIGN(const FrameResult result, renderer.renderFrame(camera));
-			TRY(load->submit());
+			TRY(clock_load_->submit());
 			row.frames.add(result);
 		}
 		return {};
@@ -251,6 +252,7 @@ private:
 	TessellationTable table_;
 	PeerTable peer_;
 	std::unique_ptr<Device> device_;
+	std::unique_ptr<ClockLoad> clock_load_;
 	std::optional<LoadedScene> loaded_;
 	Measurements results_;
 	uint32_t messages_ = 0;  // of devices that are gone

@@ -27,9 +27,9 @@ private:
 	Device& device_;
 	uint32_t turns_;
 	std::unique_ptr<BindlessSet> bindless_;  // for its layout
-	std::unique_ptr<CommandRecorder> commands_;
 	Pipeline pipeline_;
 	Buffer result_;
+	std::unique_ptr<CommandRecorder> commands_;  // goes first: it waits for the device, which uses what stands above
 };
 
 }  // namespace tessera

@@ -38,4 +38,13 @@ TEST_F(clockLoad, framesBetweenAreTheSame)
 	EXPECT_EQ(drawFrame(*scene, options).picture(), alone.picture());
 }
 
+// The device may still be at it; the test's end finds any message of the validation layers.
+TEST_F(clockLoad, mayEndWhileTheDeviceIsAtIt)
+{
+	const AsGpu scope;
+	auto load = ClockLoad::create(gpu(), 20'000);
+	ASSERT_TRUE(load) << load.error().message;
+	ASSERT_TRUE((*load)->submit());
+}
+
 }  // namespace tessera::test
