@@ -3,12 +3,9 @@
 #include "app/option_text.h"
 #include "app/scene_load.h"
 #include "base/file.h"
-#include "frame/clock_load.h"
-#include "frame/renderer.h"
-#include "frame/settle.h"
+#include "frame/timed_frames.h"
 #include "pipeline/passes.h"
 
-#include <chrono>
 #include <new>
 
 namespace tessera::bench
@@ -18,13 +15,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start)
-{
-	return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::string oneLine(std::string text)
 {
@@ -150,21 +140,15 @@ private:
 	Status drawFrames(Renderer& renderer, const Camera& camera, Row& row) const
 	{
 		constexpr double kWarmupShare = 0.25;
-		const auto start = Clock::now();
-		SettleWatch settling(renderer.planInput().device);
+		TimedFrames timed(renderer, *clock_load_);
 		const auto isWarm = [&](uint32_t frames) {
-			return secondsSince(start) >= settings_.row_seconds * kWarmupShare || (frames >= row.what.options.warmup && settling.isSettled());
+			return timed.seconds() >= settings_.row_seconds * kWarmupShare || (frames >= row.what.options.warmup && timed.isSettled());
 		};
 		for (uint32_t i = 0; !isWarm(i); ++i)
+			TRY(timed.draw(camera));
+		for (uint32_t i = 0; i < row.what.options.frames && (i == 0 || timed.seconds() < settings_.row_seconds); ++i)
 		{
-			TRY_ASSIGN(const FrameResult result, renderer.renderFrame(camera));
-			TRY(clock_load_->submit());
-			settling.add(result.gpu_ms, secondsSince(start));
-		}
-		for (uint32_t i = 0; i < row.what.options.frames && (i == 0 || secondsSince(start) < settings_.row_seconds); ++i)
-		{
-			TRY_ASSIGN(const FrameResult result, renderer.renderFrame(camera));
-			TRY(clock_load_->submit());
+			TRY_ASSIGN(const FrameResult result, timed.draw(camera));
 			row.frames.add(result);
 		}
 		return {};

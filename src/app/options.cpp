@@ -277,7 +277,7 @@ const std::array kTable = {
 				"cameras over time (JSON): render spreads --frames over it and writes one picture each where -o has ####, view plays it",
 				&AppOptions::camera_path },
 	OptionDesc{ "frames", "N", "frames to draw and time", &AppOptions::frames, 1, 1e6 },
-	OptionDesc{ "warmup", "N", "frames to draw before those", &AppOptions::warmup, 0, 1e6 },
+	OptionDesc{ "warmup", "N", "frames to draw before those; on a GPU more, until its clock rests", &AppOptions::warmup, 0, 1e6 },
 	OptionDesc{ "rates", "LIST", "rates that report tries (default: 16,8,4,2,1,0.5) and verify checks (default: that of --rate)", kRatesOption },
 	OptionDesc{ "rasters", "LIST", "report: raster paths to try; default: that of --raster", kRastersOption },
 	OptionDesc{ "metrics", "LIST", "report: metrics to try; default: that of --metric", kMetricsOption, 0, 0, Rebuild::Scene },

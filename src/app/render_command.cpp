@@ -6,7 +6,7 @@
 #include "app/scene_load.h"
 #include "app/stats_json.h"
 #include "base/log.h"
-#include "frame/renderer.h"
+#include "frame/timed_frames.h"
 #include "output/png.h"
 #include "pipeline/passes.h"
 
@@ -78,21 +78,49 @@ void tellBudget(const BudgetOutcome& outcome)
 				   counted(outcome.frames, "frame"), outcome.longest_ms, outcome.settled ? "" : "; the rate did not come to rest before them");
 }
 
-// Draws --warmup frames from the path's start (and with `budget` more, until the rate rests) and --frames spread over it evenly, both ends
-// included. Pictures of those before the last are written when `picture_path` tells them apart.
-Result<FrameSeries> drawFrames(Renderer& renderer, const Camera& camera, const AppOptions& options, FrameBudget* budget,
+// Draws the frames of a command: with a budget at its rates, otherwise, where the command asks for more than a picture, to be timed.
+class FrameDrawing
+{
+public:
+	FrameDrawing(Renderer& renderer, const AppOptions& options, FrameBudget* budget) : renderer_(renderer), options_(options), budget_(budget) {}
+
+	// --warmup frames, and more until the rate rests or the device's clock does.
+	Status warmUp(Device& device, const Camera& camera)
+	{
+		if (!budget_ && (options_.frames > 1 || options_.warmup > 0))
+		{
+			TRY_ASSIGN(load_, ClockLoad::create(device));
+			timed_.emplace(renderer_, *load_);
+		}
+		for (uint32_t i = 0; i < options_.warmup || (timed_ && !timed_->isSettled()); ++i)
+			TRY(draw(camera));
+		return budget_ ? budget_->settle(camera) : Status();
+	}
+
+	Result<FrameResult> draw(const Camera& camera) { return timed_ ? timed_->draw(camera) : renderer_.renderFrame(camera); }
+	Result<FrameResult> drawCounted(const Camera& camera) { return budget_ ? budget_->drawFrame(camera) : draw(camera); }
+
+private:
+	Renderer& renderer_;
+	const AppOptions& options_;
+	FrameBudget* budget_;
+	std::unique_ptr<ClockLoad> load_;
+	std::optional<TimedFrames> timed_;
+};
+
+// Draws --warmup frames from the path's start and --frames spread over it evenly, both ends included. Pictures of those before the last are written
+// when `picture_path` tells them apart.
+Result<FrameSeries> drawSeries(Renderer& renderer, Device& device, const Camera& camera, const AppOptions& options, FrameBudget* budget,
 							   const std::string& picture_path)
 {
 	TRY_ASSIGN(const CameraPath path, pathOf(camera, options));
+	FrameDrawing drawing(renderer, options, budget);
+	TRY(drawing.warmUp(device, path.at(0)));
 	FrameSeries series;
-	for (uint32_t i = 0; i < options.warmup; ++i)
-		TRY(renderer.renderFrame(path.at(0)));
-	if (budget)
-		TRY(budget->settle(path.at(0)));
 	for (uint32_t i = 0; i < options.frames; ++i)
 	{
 		const double time = options.frames > 1 ? path.duration_s() * i / (options.frames - 1) : 0;
-		TRY_ASSIGN(const FrameResult result, budget ? budget->drawFrame(path.at(time)) : renderer.renderFrame(path.at(time)));
+		TRY_ASSIGN(const FrameResult result, drawing.drawCounted(path.at(time)));
 		series.add(result);
 		if (i + 1 < options.frames && picture_path.find('#') != std::string::npos)
 		{
@@ -100,6 +128,12 @@ Result<FrameSeries> drawFrames(Renderer& renderer, const Camera& camera, const A
 			TRY(writePng(numbered(picture_path, i), options.width_px, options.height_px, picture, 4));
 		}
 	}
+	return series;
+}
+
+// Says what was drawn. Errors: Coarsened, with --strict.
+Status tellSeries(const FrameSeries& series, const AppOptions& options, const FrameBudget* budget)
+{
 	const FrameResult& last = series.last;
 	logInfo("drew {}: {} of {} and {}, {:.3f} ms on the device", counted(options.frames, "frame"),
 			counted(last.counts.micro_triangles, "micro-triangle"), counted(last.counts.part_triangles, "part triangle"),
@@ -112,7 +146,7 @@ Result<FrameSeries> drawFrames(Renderer& renderer, const Camera& camera, const A
 		return fail(ExitCode::Coarsened, "--strict: {}", coarseningText(last));
 	if (isCoarsened(last))
 		logWarning("{}", coarseningText(last));
-	return series;
+	return {};
 }
 
 nlohmann::ordered_json budgetJson(const BudgetOutcome& outcome)
@@ -137,7 +171,9 @@ Status drawAndWrite(const CommandLine& line, const AppOptions& options, const st
 	std::optional<FrameBudget> budget;
 	if (options.max_ms)
 		budget.emplace(*renderer, *options.max_ms, options.rate);
-	TRY_ASSIGN(const FrameSeries series, drawFrames(*renderer, subject.camera, options, budget ? &*budget : nullptr, picture_path));
+	FrameBudget* const kept = budget ? &*budget : nullptr;
+	TRY_ASSIGN(const FrameSeries series, drawSeries(*renderer, device, subject.camera, options, kept, picture_path));
+	TRY(tellSeries(series, options, kept));
 	TRY_ASSIGN(const std::vector<uint8_t> picture, renderer->readPicture());
 	const std::string last_path = numbered(picture_path, options.frames - 1);
 	TRY(writePng(last_path, options.width_px, options.height_px, picture, 4));

@@ -1,9 +1,8 @@
 #include "app/report_drawing.h"
 
-#include "frame/settle.h"
+#include "frame/timed_frames.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace tessera
 {
@@ -75,8 +74,6 @@ public:
 	}
 
 private:
-	using Clock = std::chrono::steady_clock;
-
 	uint32_t shareOf(uint32_t frames) const
 	{
 		const auto cameras = static_cast<uint32_t>(cameras_.size());
@@ -86,28 +83,24 @@ private:
 	// Warms up, then draws until there are enough frames or the camera's share of the run's time is over; gives the last.
 	Result<FrameResult> drawFrames(const Camera& camera)
 	{
-		const auto start = Clock::now();
+		TimedFrames timed(renderer_, load_);
 		const auto share = [&] {
-			return std::chrono::duration<double>(Clock::now() - start).count() * double(cameras_.size()) / kRunSeconds;
+			return timed.seconds() * double(cameras_.size()) / kRunSeconds;
 		};
 		progress_.begin(fmt::format("drawing {}", run_.setting.label()), warmup_ + frames_);
-		SettleWatch settling(renderer_.planInput().device);
 		const auto isWarm = [&](uint32_t frames) {
-			return (frames >= warmup_ && settling.isSettled()) || (frames > 0 && share() >= 0.25);
+			return (frames >= warmup_ && timed.isSettled()) || (frames > 0 && share() >= 0.25);
 		};
 		for (uint32_t i = 0; !isWarm(i); ++i, ++run_.warmup)
 		{
-			TRY_ASSIGN(const FrameResult frame, renderer_.renderFrame(camera));
-			TRY(load_.submit());
-			settling.add(frame.gpu_ms, std::chrono::duration<double>(Clock::now() - start).count());
+			TRY(timed.draw(camera));
 			if (i < warmup_)
 				progress_.advance();
 		}
 		FrameResult last;
 		for (uint32_t i = 0; i < frames_ && (i < std::min(frames_, kLeastFrames) || share() < 1); ++i, ++run_.frames, progress_.advance())
 		{
-			TRY_ASSIGN(last, renderer_.renderFrame(camera));
-			TRY(load_.submit());
+			TRY_ASSIGN(last, timed.draw(camera));
 			frame_ms_.push_back(last.gpu_ms);
 			addPasses(last.passes);
 		}
