@@ -1,6 +1,6 @@
 # Options, planning, the controllers of a frame, and the program as a user runs it.
 set(here ${CMAKE_CURRENT_LIST_DIR})
-add_executable(app_test ${here}/build_test_scenes.cpp ${here}/height_footprints_test.cpp ${here}/options_test.cpp ${here}/list_budget_test.cpp ${here}/plan_test.cpp ${here}/ray_clusters_test.cpp ${here}/occlusion_controller_test.cpp ${here}/rate_controller_test.cpp ${here}/time_controller_test.cpp ${here}/scene_load_test.cpp)
+add_executable(app_test ${here}/build_test_scenes.cpp ${here}/height_footprints_test.cpp ${here}/options_test.cpp ${here}/list_budget_test.cpp ${here}/plan_checks.cpp ${here}/plan_test.cpp ${here}/plan_force_test.cpp ${here}/plan_order_test.cpp ${here}/plan_rays_test.cpp ${here}/ray_clusters_test.cpp ${here}/occlusion_controller_test.cpp ${here}/rate_controller_test.cpp ${here}/time_controller_test.cpp ${here}/scene_load_test.cpp)
 target_link_libraries(app_test PRIVATE tessera_app GTest::gtest_main)
 gtest_discover_tests(app_test PROPERTIES LABELS cpu)
 

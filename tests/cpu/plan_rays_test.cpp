@@ -1,0 +1,141 @@
+// What rays add to a plan, and what they leave out.
+#include "plan_checks.h"
+
+#include "plan/conditions.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera::test
+{
+
+namespace
+{
+
+constexpr std::string_view kClusterPasses[] = { "clear_clusters",       "list_clusters",    "list_structures", "insert_clusters",
+												"instantiate_clusters", "build_transients", "build_structures" };
+
+}  // namespace
+
+TEST(framePlan, nothingOfRaysIsPlannedUntilAskedFor)
+{
+	PlanInput input = fullInput();
+	input.device.rays = true;
+	const FramePlan plan = planOf(input);
+	expectDropped(plan, { "build_geometry", "place_instances", "build_scene", "trace_visibility", "trace_shadows", "trace_ambient" });
+	expectLeftOut(plan,
+				  { "ray_instances", "ray_geometry", "ray_scene", "ray_scratch", "sun_visibility", "ambient_visibility", "expanded_triangles" });
+	for (const char* feature : { "HAS_RAYS", "HAS_SHADOWS", "HAS_AMBIENT_OCCLUSION", "HAS_RAY_FALLOFF" })
+		EXPECT_FALSE(featureOn(plan, feature)) << feature;
+}
+
+TEST(framePlan, segmentsFallOffOutOfViewOnlyWhereRaysOfLightMeetThem)
+{
+	PlanInput input = fullInput();
+	input.device.rays = true;
+	input.options.raster = Raster::Rt;
+	EXPECT_FALSE(featureOn(planOf(input), "HAS_RAY_FALLOFF")) << "what is out of view is culled";
+	input.options.shadows = true;
+	EXPECT_TRUE(featureOn(planOf(input), "HAS_RAY_FALLOFF"));
+	PlanInput debug = input, off = input, coarse = input, ambient = input;
+	debug.options.view = ViewMode::Factors;
+	EXPECT_FALSE(featureOn(planOf(debug), "HAS_RAY_FALLOFF")) << "the view shows no light";
+	off.options.ray_falloff = 0;
+	EXPECT_FALSE(featureOn(planOf(off), "HAS_RAY_FALLOFF"));
+	coarse.options.rate = 0;
+	EXPECT_FALSE(featureOn(planOf(coarse), "HAS_RAY_FALLOFF"));
+	ambient.options.shadows = false;
+	ambient.options.ao_samples = 4;
+	EXPECT_TRUE(featureOn(planOf(ambient), "HAS_RAY_FALLOFF"));
+}
+
+TEST(framePlan, raysFindVisibilityInPlaceOfRasterisers)
+{
+	PlanInput input = fullInput();
+	input.device.rays = true;
+	input.options.raster = Raster::Rt;
+	const FramePlan plan = planOf(input);
+	for (const char* pass : { "evaluate_vertices", "build_geometry", "build_scene", "trace_visibility" })
+		EXPECT_TRUE(plan.has(pass)) << pass;
+	expectDropped(plan, { "raster_micro", "draw_clusters", "draw_batches", "draw_indexed", "trace_shadows", "trace_ambient", "depth_pyramid" });
+	expectLeftOut(plan, { "visibility_depth", "visibility_payload", "indexed_draw" });
+	EXPECT_TRUE(featureOn(plan, "HAS_CULLING")) << "what is out of view is met by no primary ray";
+	EXPECT_FALSE(featureOn(plan, "HAS_OCCLUSION"));
+}
+
+TEST(framePlan, raysGoThroughClustersWhereTheDeviceBuildsThem)
+{
+	PlanInput input = fullInput();
+	input.device.rays = input.device.clusters = true;
+	input.options.raster = Raster::Rt;
+	FramePlan plan = planOf(input);
+	for (std::string_view pass : kClusterPasses)
+		EXPECT_TRUE(plan.has(pass)) << pass;
+	EXPECT_TRUE(plan.has("trace_clusters") && plan.has("place_instances") && plan.has("build_scene"));
+	expectDropped(plan, { "build_geometry", "trace_visibility" });
+	expectLeftOut(plan, { "expanded_triangles" });
+	EXPECT_TRUE(featureOn(plan, "BUILDS_CLUSTERS") && featureOn(plan, "HAS_TRANSIENT_UNITS") && featureOn(plan, "HAS_TRANSIENT_GROUPS"));
+	EXPECT_FALSE(featureOn(plan, "EXPANDS_TRIANGLES"));
+	input.options.transient_units = input.options.transient_groups = false;
+	plan = planOf(input);
+	expectDropped(plan, { "build_transients" });
+	expectLeftOut(plan, { "ray_payloads" });
+	input.options.rate = 0;
+	plan = planOf(input);
+	EXPECT_TRUE(plan.has("instantiate_clusters")) << "full clusters are made from templates, too";
+	expectLeftOut(plan, { "window_vertices" });
+	EXPECT_FALSE(featureOn(plan, "KEEPS_PLACES")) << "nothing is refitted";
+}
+
+TEST(framePlan, clustersAreLeftOutWithTheReason)
+{
+	PlanInput input = fullInput();
+	input.device.rays = true;
+	input.options.raster = Raster::Rt;
+	for (const bool asked_for : { false, true })
+	{
+		input.device.clusters = asked_for;
+		input.options.ray_path = asked_for ? RayPath::Triangles : RayPath::Auto;
+		const FramePlan plan = planOf(input);
+		for (std::string_view pass : kClusterPasses)
+			EXPECT_FALSE(plan.has(pass)) << pass;
+		EXPECT_NE(plan.reason("list_clusters").find("device lacks VK_NV_cluster_acceleration_structure"), std::string::npos);
+		EXPECT_TRUE(plan.has("build_geometry") && plan.has("trace_visibility"));
+		EXPECT_FALSE(featureOn(plan, "BUILDS_CLUSTERS"));
+		EXPECT_EQ(rayPathChoice(input).reason, asked_for ? "asked for" : "the device lacks VK_NV_cluster_acceleration_structure");
+	}
+	input.options = {};
+	input.device.clusters = true;
+	const FramePlan without = planOf(input);
+	for (std::string_view pass : kClusterPasses)
+		EXPECT_FALSE(without.has(pass)) << pass << ": no rays are traced";
+}
+
+TEST(framePlan, lightKeepsWhatCullingWouldRemove)
+{
+	PlanInput input = fullInput();
+	input.device.rays = input.device.buffer_atomics_64 = true;
+	input.options.raster = Raster::Soft;
+	input.options.shadows = true;
+	const FramePlan plan = planOf(input);
+	EXPECT_TRUE(plan.has("trace_shadows"));
+	expectDropped(plan, { "trace_ambient", "trace_visibility", "depth_pyramid", "raster_revealed" });
+	expectLeftOut(plan, { "ambient_visibility", "cluster_bounds", "mesh_bounds" });
+	EXPECT_FALSE(featureOn(plan, "HAS_CULLING"));
+	// Views that show no light trace none, and cull again.
+	input.options.view = ViewMode::Factors;
+	const FramePlan view = planOf(input);
+	expectDropped(view, { "trace_shadows", "build_geometry" });
+	EXPECT_TRUE(featureOn(view, "HAS_CULLING"));
+}
+
+TEST(framePlan, raysOfADeviceThatHasNoneAreRefusedWithTheReason)
+{
+	PlanInput input = fullInput();
+	input.options.raster = Raster::Rt;
+	const Result<FramePlan> plan = planFrame(framePasses(), resourceDescs(), kWanted, input);
+	ASSERT_FALSE(plan);
+	EXPECT_EQ(plan.error().code, ExitCode::DeviceCannot);
+	EXPECT_NE(plan.error().message.find("lacks acceleration structures"), std::string::npos) << plan.error().message;
+}
+
+}  // namespace tessera::test
