@@ -21,11 +21,10 @@ void barrier(const Device& device, VkCommandBuffer commands)
 }
 
 // Copy regions of pieces, by the program's buffer. Their place in the staging buffer is `at` of each.
-template <typename Pieces>
-std::map<VkBuffer, std::vector<VkBufferCopy>> regionsOf(const Pieces& pieces, bool read)
+std::map<VkBuffer, std::vector<VkBufferCopy>> regionsOf(std::span<const Piece> pieces, bool read)
 {
 	std::map<VkBuffer, std::vector<VkBufferCopy>> regions;
-	for (const auto& piece : pieces)
+	for (const Piece& piece : pieces)
 		if (piece.size)
 			regions[piece.place.buffer].push_back(read ? VkBufferCopy{ piece.place.offset, piece.at, piece.size }
 													   : VkBufferCopy{ piece.at, piece.place.offset, piece.size });

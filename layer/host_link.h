@@ -12,6 +12,13 @@
 namespace tessera::layer
 {
 
+// A piece of device memory, and where its bytes stand among those of all pieces.
+struct Piece
+{
+	Place place;
+	size_t size, at;
+};
+
 // Pieces of device memory to be read together.
 class Reads
 {
@@ -30,11 +37,6 @@ public:
 
 private:
 	friend class HostLink;
-	struct Piece
-	{
-		Place place;
-		size_t size, at;
-	};
 	std::vector<Piece> pieces_;
 	std::vector<std::byte> bytes_;
 	size_t total_ = 0;
@@ -53,11 +55,6 @@ public:
 
 private:
 	friend class HostLink;
-	struct Piece
-	{
-		Place place;
-		size_t size, at;
-	};
 	std::vector<Piece> pieces_;
 	std::vector<std::byte> bytes_;
 };

@@ -64,7 +64,7 @@ void checkRequest(const Operation& operation, const Request& request)
 						 from.truncate_bits, limits.minPositionTruncateBitCount);
 }
 
-void checkTotals(const Operation& operation, std::span<const Request> requests)
+void checkTotalsOf(const Operation& operation, std::span<const Request> requests)
 {
 	uint64_t triangles = 0, vertices = 0;
 	for (const Request& request : requests)
@@ -73,13 +73,7 @@ void checkTotals(const Operation& operation, std::span<const Request> requests)
 			triangles += request.from->triangle_count;
 			vertices += request.from->vertex_count;
 		}
-	const auto& limits = operation.input.triangles;
-	if (triangles > limits.maxTotalTriangleCount)
-		operation.report().violation("total-triangles-above-max", "{}: {} triangles in all, maxTotalTriangleCount is {}", operation.name(), triangles,
-									 limits.maxTotalTriangleCount);
-	if (vertices > limits.maxTotalVertexCount)
-		operation.report().violation("total-vertices-above-max", "{}: {} vertices in all, maxTotalVertexCount is {}", operation.name(), vertices,
-									 limits.maxTotalVertexCount);
+	checkTotals(operation, triangles, vertices);
 }
 
 void addRead(const Operation& operation, Reads& reads, Request& request)
@@ -154,6 +148,17 @@ float component(const std::byte* bytes, const VertexLayout& layout, uint32_t tru
 
 }  // namespace
 
+void checkTotals(const Operation& operation, uint64_t triangles, uint64_t vertices)
+{
+	const auto& limits = operation.input.triangles;
+	if (triangles > limits.maxTotalTriangleCount)
+		operation.report().violation("total-triangles-above-max", "{}: {} triangles in all, maxTotalTriangleCount is {}", operation.name(), triangles,
+									 limits.maxTotalTriangleCount);
+	if (vertices > limits.maxTotalVertexCount)
+		operation.report().violation("total-vertices-above-max", "{}: {} vertices in all, maxTotalVertexCount is {}", operation.name(), vertices,
+									 limits.maxTotalVertexCount);
+}
+
 std::optional<size_t> addVertexRead(const Operation& operation, Reads& reads, const VertexSource& source, const std::string& text)
 {
 	const auto layout = vertexLayout(operation.input.triangles.vertexFormat);
@@ -208,7 +213,7 @@ VkResult instantiateClusters(const Operation& operation)
 		request.from = &found->second;
 		checkRequest(operation, request);
 	}
-	checkTotals(operation, requests);
+	checkTotalsOf(operation, requests);
 	for (Request& request : requests)
 		if (request.from && !sizes_only)
 			addRead(operation, reads, request);

@@ -77,6 +77,8 @@ struct VertexSource
 	uint32_t count = 0;
 };
 // Adds the read and returns its number.
+// "total-triangles-above-max" and "total-vertices-above-max": those of all arguments together.
+void checkTotals(const Operation& operation, uint64_t triangles, uint64_t vertices);
 std::optional<size_t> addVertexRead(const Operation& operation, Reads& reads, const VertexSource& source, const std::string& text);
 // The vertices as floats with their last bits taken away; names those that are not finite.
 std::vector<Vertex> vertexValues(const Operation& operation, std::span<const std::byte> bytes, const VertexSource& source, uint32_t truncate_bits,

@@ -220,13 +220,7 @@ std::vector<Request> makeRequests(const Operation& operation)
 		triangles += requests[i].info.triangleCount;
 		vertices += requests[i].info.vertexCount;
 	}
-	const auto& limits = operation.input.triangles;
-	if (triangles > limits.maxTotalTriangleCount)
-		operation.report().violation("total-triangles-above-max", "{}: {} triangles in all, maxTotalTriangleCount is {}", operation.name(), triangles,
-									 limits.maxTotalTriangleCount);
-	if (vertices > limits.maxTotalVertexCount)
-		operation.report().violation("total-vertices-above-max", "{}: {} vertices in all, maxTotalVertexCount is {}", operation.name(), vertices,
-									 limits.maxTotalVertexCount);
+	checkTotals(operation, triangles, vertices);
 	return requests;
 }
 

@@ -173,16 +173,14 @@ Result<Shader> loadShader(std::string_view name)
 
 Result<Pipeline> makeComputePipeline(Device& device, VkPipelineLayout layout, const Shader& shader, const Constants& constants)
 {
-	const Specialization specialization(constants);
-	TRY_ASSIGN(const VkShaderModule shader_module, makeModule(device, shader));
+	ShaderStages stages(device, constants);
+	TRY(stages.add(shader));
 	VkComputePipelineCreateInfo info = { VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO };
-	info.stage = stageInfo(shader, shader_module, specialization);
+	info.stage = stages.infos().front();
 	info.layout = layout;
 	info.flags = device.pipeline_statistics ? VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR : 0;
 	VkPipeline pipeline = VK_NULL_HANDLE;
-	const VkResult result = vkCreateComputePipelines(device.handle, device.pipeline_cache, 1, &info, nullptr, &pipeline);
-	vkDestroyShaderModule(device.handle, shader_module, nullptr);
-	VK_TRY(result, "creating the pipeline of {}", shader.name);
+	VK_TRY(vkCreateComputePipelines(device.handle, device.pipeline_cache, 1, &info, nullptr, &pipeline), "creating the pipeline of {}", shader.name);
 	device.nameObject(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline), shader.name);
 	printPipelineStatistics(device, pipeline, shader.name);
 	return Pipeline(device, pipeline, VK_PIPELINE_BIND_POINT_COMPUTE);
@@ -236,21 +234,12 @@ struct FixedState
 Result<Pipeline> makeDrawPipeline(Device& device, VkPipelineLayout layout, std::span<const Shader> shaders, const Constants& constants,
 								  const DrawState& state)
 {
-	const Specialization specialization(constants);
 	const FixedState fixed(state);
-	std::vector<VkPipelineShaderStageCreateInfo> stages;
-	Status loaded;
-	for (const Shader& shader : shaders)
-	{
-		auto shader_module = makeModule(device, shader);
-		if (shader_module)
-			stages.push_back(stageInfo(shader, *shader_module, specialization));
-		else
-			loaded = tl::unexpected(shader_module.error());
-	}
+	ShaderStages stages(device, constants);
+	TRY(stages.add(shaders));
 	VkGraphicsPipelineCreateInfo info = { VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &fixed.rendering };
-	info.stageCount = static_cast<uint32_t>(stages.size());
-	info.pStages = stages.data();
+	info.stageCount = static_cast<uint32_t>(stages.infos().size());
+	info.pStages = stages.infos().data();
 	info.pVertexInputState = &fixed.vertex_input;
 	info.pInputAssemblyState = &fixed.input_assembly;
 	info.pViewportState = &fixed.viewport;
@@ -261,11 +250,8 @@ Result<Pipeline> makeDrawPipeline(Device& device, VkPipelineLayout layout, std::
 	info.pDynamicState = &fixed.dynamic;
 	info.layout = layout;
 	VkPipeline pipeline = VK_NULL_HANDLE;
-	const VkResult result = loaded ? vkCreateGraphicsPipelines(device.handle, device.pipeline_cache, 1, &info, nullptr, &pipeline) : VK_SUCCESS;
-	for (const auto& stage : stages)
-		vkDestroyShaderModule(device.handle, stage.module, nullptr);
-	TRY(loaded);
-	VK_TRY(result, "creating the pipeline of {}", shaders.front().name);
+	VK_TRY(vkCreateGraphicsPipelines(device.handle, device.pipeline_cache, 1, &info, nullptr, &pipeline), "creating the pipeline of {}",
+		   shaders.front().name);
 	device.nameObject(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline), shaders.front().name);
 	return Pipeline(device, pipeline, VK_PIPELINE_BIND_POINT_GRAPHICS);
 }

@@ -75,18 +75,9 @@ Result<RayTable> makeTable(Device& device, CommandRecorder& commands, VkPipeline
 Result<Pipeline> makeRayPipeline(Device& device, CommandRecorder& commands, VkPipelineLayout layout, std::span<const Shader> shaders,
 								 const Constants& constants)
 {
-	const Specialization specialization(constants);
-	std::vector<VkPipelineShaderStageCreateInfo> stages;
-	Status loaded;
-	for (const Shader& shader : shaders)
-	{
-		auto shader_module = makeModule(device, shader);
-		if (shader_module)
-			stages.push_back(stageInfo(shader, *shader_module, specialization));
-		else
-			loaded = tl::unexpected(shader_module.error());
-	}
-	const Groups groups = groupsOf(stages);
+	ShaderStages stages(device, constants);
+	TRY(stages.add(shaders));
+	const Groups groups = groupsOf(stages.infos());
 	VkRayTracingPipelineCreateInfoKHR info = { VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR };
 #ifdef VK_NV_cluster_acceleration_structure
 	VkRayTracingPipelineClusterAccelerationStructureCreateInfoNV clusters = {
@@ -97,20 +88,15 @@ Result<Pipeline> makeRayPipeline(Device& device, CommandRecorder& commands, VkPi
 	if (device.gates.cluster_acceleration_structure)
 		info.pNext = &clusters;
 #endif
-	info.stageCount = static_cast<uint32_t>(stages.size());
-	info.pStages = stages.data();
+	info.stageCount = static_cast<uint32_t>(stages.infos().size());
+	info.pStages = stages.infos().data();
 	info.groupCount = kGroupCount;
 	info.pGroups = groups.data();
 	info.maxPipelineRayRecursionDepth = 1;
 	info.layout = layout;
 	VkPipeline handle = VK_NULL_HANDLE;
-	const VkResult result =
-		loaded ? device.functions.create_ray_tracing_pipelines(device.handle, VK_NULL_HANDLE, device.pipeline_cache, 1, &info, nullptr, &handle)
-			   : VK_SUCCESS;
-	for (const auto& stage : stages)
-		vkDestroyShaderModule(device.handle, stage.module, nullptr);
-	TRY(loaded);
-	VK_TRY(result, "creating the pipeline of {}", shaders.front().name);
+	VK_TRY(device.functions.create_ray_tracing_pipelines(device.handle, VK_NULL_HANDLE, device.pipeline_cache, 1, &info, nullptr, &handle),
+		   "creating the pipeline of {}", shaders.front().name);
 	Pipeline pipeline(device, handle, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR);
 	device.nameObject(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(handle), shaders.front().name);
 	TRY_ASSIGN(RayTable table, makeTable(device, commands, handle, shaders.front().name));

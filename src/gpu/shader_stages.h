@@ -26,24 +26,47 @@ private:
 	VkSpecializationInfo info_ = {};
 };
 
-inline Result<VkShaderModule> makeModule(Device& device, const Shader& shader)
+// The stages of one pipeline while it is made: their modules go with this.
+class ShaderStages
 {
-	VkShaderModuleCreateInfo info = { VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO };
-	info.codeSize = shader.words.size() * sizeof(uint32_t);
-	info.pCode = shader.words.data();
-	VkShaderModule shader_module = VK_NULL_HANDLE;
-	VK_TRY(vkCreateShaderModule(device.handle, &info, nullptr, &shader_module), "loading shader {} ({} bytes of SPIR-V)", shader.name, info.codeSize);
-	return shader_module;
-}
+public:
+	ShaderStages(const Device& device, const Constants& constants) : device_(device), specialization_(constants) {}
+	~ShaderStages()
+	{
+		for (const auto& stage : infos_)
+			vkDestroyShaderModule(device_.handle, stage.module, nullptr);
+	}
+	ShaderStages(const ShaderStages&) = delete;
+	ShaderStages& operator=(const ShaderStages&) = delete;
 
-inline VkPipelineShaderStageCreateInfo stageInfo(const Shader& shader, VkShaderModule shader_module, const Specialization& specialization)
-{
-	VkPipelineShaderStageCreateInfo info = { VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO };
-	info.stage = shader.stage;
-	info.module = shader_module;
-	info.pName = "main";
-	info.pSpecializationInfo = specialization.info();
-	return info;
-}
+	// Errors: out of memory, with the shader's name.
+	Status add(const Shader& shader)
+	{
+		VkShaderModuleCreateInfo code = { VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO };
+		code.codeSize = shader.words.size() * sizeof(uint32_t);
+		code.pCode = shader.words.data();
+		VkPipelineShaderStageCreateInfo info = { VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO };
+		VK_TRY(vkCreateShaderModule(device_.handle, &code, nullptr, &info.module), "loading shader {} ({} bytes of SPIR-V)", shader.name,
+			   code.codeSize);
+		info.stage = shader.stage;
+		info.pName = "main";
+		info.pSpecializationInfo = specialization_.info();
+		infos_.push_back(info);
+		return {};
+	}
+	Status add(std::span<const Shader> shaders)
+	{
+		for (const Shader& shader : shaders)
+			TRY(add(shader));
+		return {};
+	}
+
+	std::span<const VkPipelineShaderStageCreateInfo> infos() const { return infos_; }
+
+private:
+	const Device& device_;
+	Specialization specialization_;
+	std::vector<VkPipelineShaderStageCreateInfo> infos_;
+};
 
 }  // namespace tessera

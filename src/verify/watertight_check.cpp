@@ -1,6 +1,6 @@
 #include "verify/watertight_check.h"
 
-#include "reference/piece_groups.h"
+#include "reference/edge_sides.h"
 #include "verify/topology.h"
 
 #include <fmt/format.h>
@@ -14,33 +14,9 @@ namespace tessera::verify
 namespace
 {
 
+using reference::EdgePoint;
 using reference::HostScene;
-
-// A micro-vertex on a base edge, by its distance from the end with the lower welded vertex.
-struct EdgePoint
-{
-	uint32_t along;  // 0..DOMAIN_SIZE
-	vec3 displaced;
-};
-
-bool sameBits(const EdgePoint& a, const EdgePoint& b)
-{
-	return a.along == b.along && std::memcmp(&a.displaced, &b.displaced, sizeof(vec3)) == 0;
-}
-
-// What one base triangle has along one of its edges.
-struct Side
-{
-	uint32_t weld_low, weld_high;
-	ClusterRef cluster;
-	uint32_t triangle, edge;
-	std::vector<EdgePoint> points;  // in order
-};
-
-auto edgeKey(const Side& side)
-{
-	return std::array<uint32_t, 3>{ side.cluster.instance, side.weld_low, side.weld_high };
-}
+using reference::Side;
 
 struct Chunk
 {
@@ -48,19 +24,6 @@ struct Chunk
 	CheckResult result;
 	Topology topology;
 };
-
-std::array<Side, 3> emptySides(const HostScene& scene, const MicroTriangle& t)
-{
-	const BaseTriangle base = scene.base(t.cluster, t.triangle);
-	const uint32_t vertices[3] = { base.v0, base.v1, base.v2 };
-	std::array<Side, 3> sides;
-	for (uint32_t edge = 0; edge < 3; ++edge)
-	{
-		const uint32_t first = scene.built().weld_ids[vertices[edge]], second = scene.built().weld_ids[vertices[(edge + 1) % 3]];
-		sides[edge] = { std::min(first, second), std::max(first, second), t.cluster, t.triangle, edge, {} };
-	}
-	return sides;
-}
 
 // Every domain point of the base triangle with its position; one that has two is a violation.
 std::vector<std::pair<DomainPoint, vec3>> pointsOf(std::span<const MicroTriangle> group, CheckResult& result)
@@ -93,15 +56,12 @@ std::vector<std::pair<DomainPoint, vec3>> pointsOf(std::span<const MicroTriangle
 
 void addGroup(const HostScene& scene, std::span<const MicroTriangle> group, Chunk& chunk)
 {
-	std::array<Side, 3> sides = emptySides(scene, group[0]);
+	std::array<Side, 3> sides = reference::emptySides(scene, group[0].cluster, group[0].triangle);
 	const uint32_t flags = triangleEdgeFlags(scene.base(group[0].cluster, group[0].triangle).flags);
 	for (const auto& [domain, displaced] : pointsOf(group, chunk.result))
 		for (uint32_t edge = 0; edge < 3; ++edge)
 			if (reference::isOnEdge(domain, edge))
-			{
-				const uint32_t along = reference::alongEdge(domain, edge);
-				sides[edge].points.push_back({ (flags >> edge & 1) != 0 ? along : DOMAIN_SIZE - along, displaced });
-			}
+				sides[edge].points.push_back({ reference::alongFromLow(domain, edge, (flags >> edge & 1) != 0), displaced });
 	for (Side& side : sides)
 	{
 		std::sort(side.points.begin(), side.points.end(), [](const EdgePoint& a, const EdgePoint& b) { return a.along < b.along; });

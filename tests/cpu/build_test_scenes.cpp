@@ -344,6 +344,19 @@ ImportedScene roundScene(uint32_t cuts)
 	return scene;
 }
 
+ImportedScene needleScene(uint32_t number)
+{
+	const double thin = std::pow(10, -1 - (number % 11) / 2.0), tip = 1.4 * (number % 7) / 6.0 - 0.2;
+	ImportedScene imported;
+	Primitive primitive;
+	primitive.material = addDisplaced(imported, noiseImage(64, 64, TexelFormat::U8, number), 0.02f, 0);
+	for (const vec3 corner : { vec3(0), vec3(1, 0, 0), vec3(float(tip), float(thin), 0) })
+		addVertex(primitive, corner, vec3(0, 0, 1), vec2(corner));
+	addTriangle(primitive, 0, 1, 2);
+	addPlacedMesh(imported, { primitive });
+	return imported;
+}
+
 ImportedScene soupScene(uint32_t seed, uint32_t triangles)
 {
 	ImportedScene scene;

@@ -43,6 +43,7 @@ ImportedScene coarseSphereScene();   // an octahedron: directions turn by a righ
 // The unit sphere around the origin as an octahedron whose edges are cut in `cuts`: smooth normals, not displaced, 8 cuts^2 triangles.
 ImportedScene roundScene(uint32_t cuts);
 
+ImportedScene needleScene(uint32_t number);  // a triangle on the x axis, as thin as 1e-6, its tip now beside the base; noise displaces it
 ImportedScene soupScene(uint32_t seed, uint32_t triangles);  // random triangles over few points, three materials, everything at odds
 
 struct NamedScene

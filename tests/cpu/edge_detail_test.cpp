@@ -314,15 +314,7 @@ TEST(edgeDetail, splittingEndsOnDisplacedNeedles)
 	for (const Metric metric : kTableMetrics)
 		for (uint32_t i = 0; i < 60; ++i)
 		{
-			const double thin = std::pow(10, -1 - (i % 11) / 2.0), tip = 1.4 * (i % 7) / 6.0 - 0.2;
-			ImportedScene imported;
-			Primitive primitive;
-			primitive.material = addDisplaced(imported, noiseImage(64, 64, TexelFormat::U8, i), 0.02f, 0);
-			for (const vec3 corner : { vec3(0), vec3(1, 0, 0), vec3(float(tip), float(thin), 0) })
-				addVertex(primitive, corner, vec3(0, 0, 1), vec2(corner));
-			addTriangle(primitive, 0, 1, 2);
-			addPlacedMesh(imported, { primitive });
-			const auto scene = sceneFor(imported, metric);
+			const auto scene = sceneFor(needleScene(i), metric);
 			const double height = std::pow(10, -0.5 - 2.0 * (i % 13) / 12.0);
 			const dvec3 near_point(i % 5 / 4.0, 0, 0);
 			Camera camera = cameraAt(near_point + dvec3(0, 0.1 * height, height), near_point + dvec3(0.1, 0.3, -0.1));

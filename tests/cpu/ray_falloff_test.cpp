@@ -230,15 +230,7 @@ TEST(rayFalloff, splittingEndsOnNeedlesOutOfView)
 	for (const Metric metric : kMetrics)
 		for (uint32_t i = 0; i < 60; ++i)
 		{
-			const double thin = std::pow(10, -1 - (i % 11) / 2.0), tip = 1.4 * (i % 7) / 6.0 - 0.2;
-			ImportedScene imported;
-			Primitive primitive;
-			primitive.material = addDisplaced(imported, noiseImage(64, 64, TexelFormat::U8, i), 0.02f, 0);
-			for (const vec3 corner : { vec3(0), vec3(1, 0, 0), vec3(float(tip), float(thin), 0) })
-				addVertex(primitive, corner, vec3(0, 0, 1), vec2(corner));
-			addTriangle(primitive, 0, 1, 2);
-			addPlacedMesh(imported, { primitive });
-			const auto scene = sceneFor(imported, metric);
+			const auto scene = sceneFor(needleScene(i), metric);
 			// With a reach of nothing, edges fall off at once.
 			BuiltScene near_view = scene->built;
 			near_view.mesh_bounds[0].longest_edge = near_view.mesh_bounds[0].reach_low = near_view.mesh_bounds[0].reach_high = 0;

@@ -42,7 +42,6 @@ static void record(PassContext& pass)
 	args.part_triangles = pass.address("part_triangles");
 	args.rule = pass.factorRule();
 	args.cull_frustum = culling(pass.input()).frustum ? 1 : 0;
-	args.cull_frustum = culling(pass.input()).frustum ? 1 : 0;
 	pass.dispatchLoop(args, pass.capacity("visible_clusters"));
 }
 
