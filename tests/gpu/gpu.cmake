@@ -53,12 +53,12 @@ gtest_discover_tests(gpu_verify_slow_test PROPERTIES LABELS slow TIMEOUT 7200)
 foreach(family IN ITEMS scale geometry displacement views counts animation)
   add_test(NAME verifySuite.quick_${family} COMMAND tessera verify --suite extreme-quick:${family} --quiet)
   set_tests_properties(verifySuite.quick_${family} PROPERTIES LABELS gpu SKIP_RETURN_CODE 4 TIMEOUT 900)
+  add_test(NAME verifySuite.extreme_${family} COMMAND tessera verify --suite extreme:${family} --quiet)
+  set_tests_properties(verifySuite.extreme_${family} PROPERTIES LABELS slow SKIP_RETURN_CODE 4 TIMEOUT 7200)
 endforeach()
 # Slivers along a silhouette, which drivers may cull before they round corners.
 add_test(NAME verifySuite.quick_hub_by_mesh_shaders COMMAND tessera verify --suite extreme-quick:hub_10000 --raster mesh --quiet)
 set_tests_properties(verifySuite.quick_hub_by_mesh_shaders PROPERTIES LABELS gpu SKIP_RETURN_CODE 4 TIMEOUT 900)
-add_test(NAME verifySuite.extreme COMMAND tessera verify --suite extreme --quiet)
-set_tests_properties(verifySuite.extreme PROPERTIES LABELS slow SKIP_RETURN_CODE 4 TIMEOUT 7200)
 
 # The page of a report in a browser. Exit code 77: it is missing (thirdparty/setup.sh --all installs it), or there is no device.
 add_test(NAME report.opensInABrowser COMMAND ${here}/../report/report_page.sh $<TARGET_FILE:tessera>)
