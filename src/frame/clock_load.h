@@ -1,7 +1,7 @@
 // Keeps a GPU's clock up while frames are measured one at a time.
 #pragma once
 #include "gpu/commands.h"
-#include "gpu/pipeline.h"
+#include "gpu/pipeline_store.h"
 
 namespace tessera
 {
@@ -26,8 +26,7 @@ private:
 
 	Device& device_;
 	uint32_t turns_;
-	std::unique_ptr<BindlessSet> bindless_;  // for its layout
-	Pipeline pipeline_;
+	PipelineStore::Shared pipeline_;
 	Buffer result_;
 	std::unique_ptr<CommandRecorder> commands_;  // goes first: it waits for the device, which uses what stands above
 };

@@ -191,28 +191,15 @@ Status PassRunner::makePipeline(const PassDesc& pass, const PipelineKey& key, co
 	std::vector<Shader> shaders;
 	for (std::string_view name : pass.shaders)
 		shaders.push_back(shaders_.find(name)->second.shader);
-	const VkPipelineLayout layout = resources_.bindless().layout();
 	if (shaders.empty())
 	{
-		pipelines_[key] = Pipeline();
-		return {};
-	}
-	if (shaders.front().stage == VK_SHADER_STAGE_RAYGEN_BIT_KHR)
-	{
-		TRY_ASSIGN(Pipeline made, makeRayPipeline(device_, resources_.commands(), layout, shaders, key.second));
-		pipelines_[key] = std::move(made);
-		return {};
-	}
-	if (shaders.size() == 1)
-	{
-		TRY_ASSIGN(Pipeline made, makeComputePipeline(device_, layout, shaders.front(), key.second));
-		pipelines_[key] = std::move(made);
+		pipelines_[key] = std::make_shared<const Pipeline>();
 		return {};
 	}
 	DrawState state;
-	state.cull = cullMode(input);
-	TRY_ASSIGN(Pipeline made, makeDrawPipeline(device_, layout, shaders, key.second, state));
-	pipelines_[key] = std::move(made);
+	if (shaders.front().stage == VK_SHADER_STAGE_VERTEX_BIT || shaders.front().stage == VK_SHADER_STAGE_MESH_BIT_EXT)
+		state.cull = cullMode(input);
+	TRY_ASSIGN(pipelines_[key], device_.pipelines->get(resources_.commands(), shaders, key.second, state));
 	return {};
 }
 
@@ -224,7 +211,7 @@ Status PassRunner::preparePipelines(const FramePlan& plan, const PlanInput& inpu
 		TRY_ASSIGN(const PipelineKey key, keyOf(*step.pass, plan));
 		if (!pipelines_.count(key))
 			TRY(makePipeline(*step.pass, key, input));
-		step_pipelines_.push_back(&pipelines_.at(key));
+		step_pipelines_.push_back(pipelines_.at(key).get());
 	}
 	return {};
 }

@@ -2,6 +2,7 @@
 #pragma once
 #include "frame/frame_resources.h"
 #include "frame/pass_context.h"
+#include "gpu/pipeline_store.h"
 
 #include <map>
 #include <set>
@@ -45,7 +46,7 @@ private:
 	using LoadedShaders = std::map<std::string, LoadedShader, std::less<>>;
 	// Shader, or pass where there are several, and the constants that its pipeline reads.
 	using PipelineKey = std::pair<std::string_view, Constants>;
-	using Pipelines = std::map<PipelineKey, Pipeline>;
+	using Pipelines = std::map<PipelineKey, PipelineStore::Shared>;
 
 	static Status load(std::string_view name, LoadedShaders& shaders);
 	Result<PipelineKey> keyOf(const PassDesc& pass, const FramePlan& plan);

@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "gpu/allocator.h"
 #include "gpu/device_features.h"
+#include "gpu/pipeline_store.h"
 
 #include <algorithm>
 #include <cstring>
@@ -259,14 +260,18 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceRequest& request)
 	TRY_ASSIGN(device->allocator, createAllocator(*device));
 	VkPipelineCacheCreateInfo cache = { VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO };
 	VK_TRY(vkCreatePipelineCache(device->handle, &cache, nullptr, &device->pipeline_cache), "creating the pipeline cache");
+	TRY_ASSIGN(device->pipelines, PipelineStore::create(*device));
 	return device;
 }
+
+Device::Device() = default;
 
 Device::~Device()
 {
 	if (handle)
 	{
 		vkDeviceWaitIdle(handle);
+		pipelines.reset();
 		vkDestroyPipelineCache(handle, pipeline_cache, nullptr);
 		destroyAllocator(allocator);
 		vkDestroyDevice(handle, nullptr);

@@ -55,6 +55,8 @@ struct DeviceLimits
 	double timestamp_ns = 0;              // per tick; 0: no timestamps
 };
 
+class PipelineStore;
+
 class Device
 {
 public:
@@ -71,6 +73,7 @@ public:
 	uint32_t queue_family = 0;
 	VmaAllocator_T* allocator = nullptr;
 	VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+	std::unique_ptr<PipelineStore> pipelines;
 	ExtensionFunctions functions;
 	DeviceGates gates;
 	DeviceLimits limits;
@@ -85,7 +88,7 @@ public:
 	void nameObject(VkObjectType type, uint64_t object, const std::string& object_name) const;
 
 private:
-	Device() = default;
+	Device();
 	friend struct DeviceBuilder;
 	VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };

@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 #include "gpu/pipeline_statistics.h"
+#include "gpu/pipeline_store.h"
 #include "gpu/shader_stages.h"
 
 #include <cstring>
@@ -32,40 +33,11 @@ VkShaderStageFlagBits stageOfName(std::string_view name)
 Result<std::unique_ptr<BindlessSet>> BindlessSet::create(Device& device)
 {
 	std::unique_ptr<BindlessSet> set(new BindlessSet(device));
-	std::vector<VkDescriptorSetLayoutBinding> bindings = {
-		{ 0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kMaxTextures, VK_SHADER_STAGE_ALL, nullptr },
-		{ 1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_ALL, nullptr },
-		{ 2, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_ALL, nullptr },
-		{ 3, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_ALL, nullptr },
-		{ 4, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_ALL, nullptr },
-		{ 5, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_ALL, nullptr },
-		{ 6, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_ALL, nullptr },
-	};
 	std::vector<VkDescriptorPoolSize> sizes = { { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kMaxTextures },
 												{ VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 2 },
 												{ VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 4 } };
 	if (device.gates.rays())
-	{
-		bindings.push_back({ 7, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1, VK_SHADER_STAGE_ALL, nullptr });
 		sizes.push_back({ VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1 });
-	}
-	const std::vector<VkDescriptorBindingFlags> flags(bindings.size(), VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT);
-	VkDescriptorSetLayoutBindingFlagsCreateInfo flags_info = { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO };
-	flags_info.bindingCount = static_cast<uint32_t>(flags.size());
-	flags_info.pBindingFlags = flags.data();
-	VkDescriptorSetLayoutCreateInfo layout_info = { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, &flags_info };
-	layout_info.bindingCount = static_cast<uint32_t>(bindings.size());
-	layout_info.pBindings = bindings.data();
-	VK_TRY(vkCreateDescriptorSetLayout(device.handle, &layout_info, nullptr, &set->set_layout_), "creating the descriptor set layout");
-
-	const VkPushConstantRange range = { VK_SHADER_STAGE_ALL, 0, kPushConstantBytes };
-	VkPipelineLayoutCreateInfo pipeline_info = { VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO };
-	pipeline_info.setLayoutCount = 1;
-	pipeline_info.pSetLayouts = &set->set_layout_;
-	pipeline_info.pushConstantRangeCount = 1;
-	pipeline_info.pPushConstantRanges = &range;
-	VK_TRY(vkCreatePipelineLayout(device.handle, &pipeline_info, nullptr, &set->pipeline_layout_), "creating the pipeline layout");
-
 	VkDescriptorPoolCreateInfo pool_info = { VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO };
 	pool_info.maxSets = 1;
 	pool_info.poolSizeCount = static_cast<uint32_t>(sizes.size());
@@ -74,7 +46,8 @@ Result<std::unique_ptr<BindlessSet>> BindlessSet::create(Device& device)
 	VkDescriptorSetAllocateInfo allocate = { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO };
 	allocate.descriptorPool = set->pool_;
 	allocate.descriptorSetCount = 1;
-	allocate.pSetLayouts = &set->set_layout_;
+	const VkDescriptorSetLayout layout = device.pipelines->setLayout();
+	allocate.pSetLayouts = &layout;
 	VK_TRY(vkAllocateDescriptorSets(device.handle, &allocate, &set->set_), "allocating the descriptor set");
 	return set;
 }
@@ -82,8 +55,11 @@ Result<std::unique_ptr<BindlessSet>> BindlessSet::create(Device& device)
 BindlessSet::~BindlessSet()
 {
 	vkDestroyDescriptorPool(device_.handle, pool_, nullptr);
-	vkDestroyPipelineLayout(device_.handle, pipeline_layout_, nullptr);
-	vkDestroyDescriptorSetLayout(device_.handle, set_layout_, nullptr);
+}
+
+VkPipelineLayout BindlessSet::layout() const
+{
+	return device_.pipelines->layout();
 }
 
 void BindlessSet::writeTexture(uint32_t index, VkImageView view, VkSampler sampler)

@@ -29,14 +29,12 @@ public:
 	void writeImage(uint32_t binding, VkImageView view);
 	void writeUniform(uint32_t binding, VkBuffer buffer);
 	void writeStructure(VkAccelerationStructureKHR structure);
-	VkPipelineLayout layout() const { return pipeline_layout_; }
+	VkPipelineLayout layout() const;
 	VkDescriptorSet set() const { return set_; }
 
 private:
 	explicit BindlessSet(Device& device) : device_(device) {}
 	Device& device_;
-	VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
-	VkPipelineLayout pipeline_layout_ = VK_NULL_HANDLE;
 	VkDescriptorPool pool_ = VK_NULL_HANDLE;
 	VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
@@ -89,6 +87,7 @@ std::filesystem::path shaderFolder();
 // Errors: DeviceCannot when the file is missing or no SPIR-V.
 Result<Shader> loadShader(std::string_view name);
 
+// Pipelines as the device's store makes them (pipeline_store.h). Errors: DeviceCannot, out of memory.
 Result<Pipeline> makeComputePipeline(Device& device, VkPipelineLayout layout, const Shader& shader, const Constants& constants);
 
 struct DrawState
@@ -96,6 +95,7 @@ struct DrawState
 	VkFormat color = VK_FORMAT_R32_UINT;
 	VkFormat depth = VK_FORMAT_D32_SFLOAT;
 	VkCullModeFlags cull = VK_CULL_MODE_NONE;
+	bool operator==(const DrawState&) const = default;
 };
 // A vertex or mesh shader and a fragment shader, drawing with reverse depth; viewport and scissor are dynamic.
 Result<Pipeline> makeDrawPipeline(Device& device, VkPipelineLayout layout, std::span<const Shader> shaders, const Constants& constants,

@@ -5,7 +5,7 @@ target_link_libraries(gpu_test_base PUBLIC tessera_pipeline tessera_reference te
 target_include_directories(gpu_test_base PUBLIC ${here}/..)
 target_compile_definitions(gpu_test_base PUBLIC TESSERA_SOURCE_ROOT="${PROJECT_SOURCE_DIR}")
 
-foreach(name IN ITEMS clock_load_test force_test list_end_test metric_test occlusion_test out_of_memory_test picture_test raster_test rate_search_test renderer_test small_first_test tessellation_test view_mode_test)
+foreach(name IN ITEMS clock_load_test force_test list_end_test metric_test occlusion_test out_of_memory_test picture_test pipeline_store_test raster_test rate_search_test renderer_test small_first_test tessellation_test view_mode_test)
   add_executable(gpu_${name} ${here}/${name}.cpp)
   target_link_libraries(gpu_${name} PRIVATE gpu_test_base)
   add_dependencies(gpu_${name} tessera_shaders)

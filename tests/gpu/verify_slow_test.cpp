@@ -65,6 +65,6 @@ INSTANTIATE_TEST_SUITE_P(scenes, verifySlowScene,
 										 SlowScene{ "builtinTerrain", "builtin:terrain" }, SlowScene{ "builtinBricks", "builtin:bricks" },
 										 SlowScene{ "builtinInstances", "builtin:instances:60" }, SlowScene{ "builtinQuad", "builtin:quad" },
 										 SlowScene{ "builtinCube", "builtin:cube" }, SlowScene{ "builtinMaterials", "builtin:materials" }),
-						 [](const auto& info) { return info.param.name; });
+						 [](const auto& made) { return made.param.name; });
 
 }  // namespace tessera::test
