@@ -1,5 +1,6 @@
 #include "layer/bound_state.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace tessera::layer
@@ -53,6 +54,24 @@ VkPipeline BoundState::pipeline(VkPipelineBindPoint point) const
 	return found == pipelines_.end() ? VK_NULL_HANDLE : found->second;
 }
 
+void BoundState::beginLabel(const VkDebugUtilsLabelEXT* label)
+{
+	labels_.push_back({ label->pLabelName, { label->color[0], label->color[1], label->color[2], label->color[3] } });
+}
+
+void BoundState::endLabel()
+{
+	if (!labels_.empty())
+		labels_.pop_back();
+}
+
+void BoundState::endLabels(const DeviceFunctions& next, VkCommandBuffer commands) const
+{
+	const auto end = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(next.commands[size_t(Command::EndDebugUtilsLabelEXT)]);
+	for (size_t i = 0; i < labels_.size(); ++i)
+		end(commands);
+}
+
 void BoundState::replay(const DeviceFunctions& next, VkCommandBuffer commands) const
 {
 	for (const auto& [point, pipeline] : pipelines_)
@@ -72,6 +91,14 @@ void BoundState::replay(const DeviceFunctions& next, VkCommandBuffer commands) c
 		next.CmdBindIndexBuffer(commands, index_buffer_, index_offset_, index_type_);
 	for (const auto& [command, call] : numbers_)
 		call(commands);
+	const auto begin = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(next.commands[size_t(Command::BeginDebugUtilsLabelEXT)]);
+	for (const Label& label : labels_)
+	{
+		VkDebugUtilsLabelEXT info = { VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT };
+		info.pLabelName = label.name.c_str();
+		std::copy(label.color.begin(), label.color.end(), info.color);
+		begin(commands, &info);
+	}
 }
 
 }  // namespace tessera::layer

@@ -2,6 +2,7 @@
 #pragma once
 #include "layer/functions.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -22,6 +23,8 @@ public:
 	void setScissors(uint32_t first, uint32_t count, const VkRect2D* scissors);
 	void bindIndexBuffer(VkBuffer buffer, VkDeviceSize offset, VkIndexType type);
 	void bindVertexBuffers(uint32_t first, uint32_t count, const VkBuffer* buffers, const VkDeviceSize* offsets);
+	void beginLabel(const VkDebugUtilsLabelEXT* label);
+	void endLabel();
 	// Dynamic state of numbers only: the call itself is kept.
 	void setNumbers(Command command, std::function<void(VkCommandBuffer)> call) { numbers_[command] = std::move(call); }
 	// State that is not kept: named when a segment would have needed it.
@@ -31,8 +34,15 @@ public:
 	// The command, without "vkCmd", whose state cannot be set again; empty when everything can.
 	const std::string& unkept() const { return unkept_; }
 	void replay(const DeviceFunctions& next, VkCommandBuffer commands) const;
+	// Labels that are open end with a segment, and begin again with the next: drivers keep them per command buffer.
+	void endLabels(const DeviceFunctions& next, VkCommandBuffer commands) const;
 
 private:
+	struct Label
+	{
+		std::string name;
+		std::array<float, 4> color;
+	};
 	struct Sets
 	{
 		VkPipelineBindPoint point;
@@ -63,6 +73,7 @@ private:
 	VkBuffer index_buffer_ = VK_NULL_HANDLE;
 	VkDeviceSize index_offset_ = 0;
 	VkIndexType index_type_ = VK_INDEX_TYPE_UINT32;
+	std::vector<Label> labels_;  // begun and not ended
 	std::map<Command, std::function<void(VkCommandBuffer)>> numbers_;
 	std::string unkept_;
 };

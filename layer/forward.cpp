@@ -122,6 +122,10 @@ void note([[maybe_unused]] Device& device, [[maybe_unused]] Recording& recording
 		recording.state.bindIndexBuffer(args...);
 	else if constexpr (kCommand == Command::BindVertexBuffers)
 		recording.state.bindVertexBuffers(args...);
+	else if constexpr (kCommand == Command::BeginDebugUtilsLabelEXT)
+		recording.state.beginLabel(args...);
+	else if constexpr (kCommand == Command::EndDebugUtilsLabelEXT)
+		recording.state.endLabel();
 	else if constexpr (isUnkept(kCommand))
 		recording.state.setUnkept(kCommand);
 	else if constexpr (startsWith(kCommandNames[size_t(kCommand)], "Set") && kCommand != Command::SetDeviceMask && allNumbers<Args...>())

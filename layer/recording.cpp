@@ -110,6 +110,7 @@ void recordHostCommand(Device& device, VkCommandBuffer buffer, HostCommand comma
 	VkCommandBufferAllocateInfo allocation = { VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, recording->pool };
 	allocation.commandBufferCount = 1;
 	VkCommandBuffer next = VK_NULL_HANDLE;
+	recording->state.endLabels(device.next, recording->current);
 	if (device.next.EndCommandBuffer(recording->current) != VK_SUCCESS ||
 		device.next.AllocateCommandBuffers(device.handle, &allocation, &next) != VK_SUCCESS)
 	{
