@@ -105,7 +105,7 @@ Placement partPlacement(uint part)
 {
 	uint row = 3u * part;
 	vec4 x = part_rows[row], y = part_rows[row + 1u], z = part_rows[row + 2u];
-	return Placement(x.xyz, y.xyz, z.xyz, vec3(x.w, y.w, z.w), part_scales[part], 0.0);  // no edge is asked about any more
+	return Placement(x.xyz, y.xyz, z.xyz, vec3(x.w, y.w, z.w), part_scales[part], 0.0, 0.0);  // no edge is asked about any more
 }
 
 TriangleCorners partCorners(uint part)

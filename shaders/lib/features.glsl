@@ -32,6 +32,7 @@ layout(constant_id = 28) const bool HAS_PN = true;
 layout(constant_id = 30) const bool HAS_DETAIL = true;
 layout(constant_id = 31) const bool HAS_DISPLACED_EDGES = true;
 layout(constant_id = 53) const bool HAS_RAY_FALLOFF = false;
+layout(constant_id = 54) const bool HAS_HIDDEN_FALLOFF = false;
 layout(constant_id = 14) const bool READS_BUFFER = true;
 layout(constant_id = 24) const bool HAS_RAYS = true;
 layout(constant_id = 27) const bool KEEPS_PLACES = false;

@@ -28,27 +28,57 @@ float farthestSeen(floatRef pyramid, uvec2 first, uvec2 last, uint level, View v
 }
 
 // A box along the axes of the view, relative to its eye and scaled as everything placed in it.
-bool boxIsHidden(vec3 low, vec3 high, View view, floatRef pyramid)
+struct ViewBox
 {
-	if (!(low.z > view.near))
-		return false;
+	vec3 low;
+	vec3 high;
+};
+
+// The pixels that a box can touch, and the depth of its nearest point.
+struct ScreenBox
+{
+	vec2 low_px;
+	vec2 high_px;
+	float nearest;
+};
+
+// False where it comes before the near plane.
+bool isBeforeEye(ViewBox box, View view) { return box.low.z > view.near; }
+
+// Of a box before the eye.
+ScreenBox onScreen(ViewBox box, View view)
+{
+	vec3 low = box.low, high = box.high;
 	float near_inverse = 1.0 / (low.z * view.w_slope + view.w_offset), far_inverse = 1.0 / (high.z * view.w_slope + view.w_offset);
 	vec2 focal = vec2(view.focal_x, view.focal_y), size = vec2(view.width_px, view.height_px);
 	vec2 ndc_low = min(low.xy * near_inverse, low.xy * far_inverse) * focal;
 	vec2 ndc_high = max(high.xy * near_inverse, high.xy * far_inverse) * focal;
 	// Rows run downwards. A pixel more on every side: positions snap, and samples lie at centres.
-	vec2 px_low = (vec2(ndc_low.x, -ndc_high.y) * 0.5 + 0.5) * size - 1.0;
-	vec2 px_high = (vec2(ndc_high.x, -ndc_low.y) * 0.5 + 0.5) * size + 1.0;
-	if (!(all(greaterThanEqual(px_low, vec2(0.0))) && all(lessThan(px_high, size))))
+	ScreenBox screen;
+	screen.low_px = (vec2(ndc_low.x, -ndc_high.y) * 0.5 + 0.5) * size - 1.0;
+	screen.high_px = (vec2(ndc_high.x, -ndc_low.y) * 0.5 + 0.5) * size + 1.0;
+	screen.nearest = (low.z * view.depth_slope + view.depth_offset) * near_inverse;
+	return screen;
+}
+
+// Whether all of a box lies behind what hides this deep.
+bool isBehind(ScreenBox box, float depth) { return box.nearest + abs(box.nearest) * 1e-5 < depth; }
+
+bool boxIsHidden(ViewBox box, View view, floatRef pyramid)
+{
+	if (!isBeforeEye(box, view))
 		return false;
-	uvec2 first = uvec2(px_low) / PYRAMID_TEXEL_PX, last = uvec2(px_high) / PYRAMID_TEXEL_PX;
+	ScreenBox screen = onScreen(box, view);
+	vec2 size = vec2(view.width_px, view.height_px);
+	if (!(all(greaterThanEqual(screen.low_px, vec2(0.0))) && all(lessThan(screen.high_px, size))))
+		return false;
+	uvec2 first = uvec2(screen.low_px) / PYRAMID_TEXEL_PX, last = uvec2(screen.high_px) / PYRAMID_TEXEL_PX;
 	uint level = 0u;
 	while (level < PYRAMID_LEVELS && max((last.x >> level) - (first.x >> level), (last.y >> level) - (first.y >> level)) >= OCCLUSION_TEXELS)
 		++level;
 	if (level == PYRAMID_LEVELS)
 		return false;
-	float nearest = (low.z * view.depth_slope + view.depth_offset) * near_inverse;
-	return nearest + abs(nearest) * 1e-5 < farthestSeen(pyramid, first, last, level, view);
+	return isBehind(screen, farthestSeen(pyramid, first, last, level, view));
 }
 
 // What three half axes reach along the axes of the view.
@@ -57,7 +87,8 @@ vec3 reachInView(vec3 axis0, vec3 axis1, vec3 axis2, View view)
 	return abs(inView(axis0, view)) + abs(inView(axis1, view)) + abs(inView(axis2, view));
 }
 
-bool clusterIsHidden(DisplacedBounds bounds, InstanceRecord instance, View view, floatRef pyramid)
+// Around everything that displaced bounds hold.
+ViewBox viewBox(DisplacedBounds bounds, InstanceRecord instance, View view)
 {
 	Placement placement = placementOf(instance, view);
 	Box box = displacedBox(bounds, view.displacement_scale, view.displacement_offset);
@@ -68,7 +99,12 @@ bool clusterIsHidden(DisplacedBounds bounds, InstanceRecord instance, View view,
 	vec3 centre = inView(placed(placement, middle), view);
 	vec3 reach = reachInView(axis0, axis1, axis2, view);
 	reach += (abs(centre) + reach) * 1e-5;
-	return boxIsHidden(centre - reach, centre + reach, view, pyramid);
+	return ViewBox(centre - reach, centre + reach);
+}
+
+bool clusterIsHidden(DisplacedBounds bounds, InstanceRecord instance, View view, floatRef pyramid)
+{
+	return boxIsHidden(viewBox(bounds, instance, view), view, pyramid);
 }
 
 // The displaced piece with undisplaced corners p, q, r, mesh units.
@@ -82,7 +118,7 @@ bool pieceIsHidden(vec3 p, vec3 q, vec3 r, DisplacedBounds bounds, InstanceRecor
 	vec3 extent = reachInView(reach.axis0, reach.axis1, reach.axis2, view) + reach.slack * 1.75;
 	// Of what is added up, not of the sum: displacement may bring near what lies far.
 	extent += (max(abs(a), max(abs(b), abs(c))) + abs(middle) + extent) * 1e-5;
-	return boxIsHidden(min(a, min(b, c)) + middle - extent, max(a, max(b, c)) + middle + extent, view, pyramid);
+	return boxIsHidden(ViewBox(min(a, min(b, c)) + middle - extent, max(a, max(b, c)) + middle + extent), view, pyramid);
 }
 
 bool wasHidden(DisplacedBounds bounds, InstanceRecord instance)

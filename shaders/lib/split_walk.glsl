@@ -72,7 +72,7 @@ void loadCluster(uint index)
 	ClusterRef ref = args.visible_clusters.at[index];
 	cluster = args.clusters.at[ref.cluster];
 	view = frame_view;
-	placement = placementOf(args.instances.at[ref.instance], view);
+	placement = placementForEdges(args.instances.at[ref.instance], ref.instance, frame_surface, view);
 	if (HAS_CULLING && uint64_t(args.cluster_bounds) != 0ul)
 		reach = placedReach(args.cluster_bounds.at[ref.cluster], placement, view);
 	barrier();
@@ -90,7 +90,8 @@ bool isUnseen(Child child)
 
 uint decisionOf(Child child)
 {
-	EdgeBase base = EdgeBase(cluster.first_triangle + child.triangle, placement.inverse_scale_squared, placement.triangle_reach);
+	EdgeBase base = EdgeBase(cluster.first_triangle + child.triangle, placement.inverse_scale_squared, placement.triangle_reach,
+	                         placement.hidden_squared);
 	return decideTriangle(base, child.corners[0], child.corners[1], child.corners[2], view, rule);
 }
 

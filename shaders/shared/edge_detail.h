@@ -36,7 +36,27 @@ struct EdgeBase
 	uint triangle;                // global index
 	float inverse_scale_squared;  // (mesh units per scaled world unit)^2 of its instance
 	float reach;                  // Placement::triangle_reach of its instance
+	float hidden_squared;         // Placement::hidden_squared of its instance
 };
+
+// What all edges of an instance that is hidden have added to the squared distance that decides their segments, where light's rays alone meet them, as
+// unseenSquared for one that is out of view. A constant of the instance: both sides of an edge know it, and splitting ends as without.
+SHARED_FN precise float hiddenSquared(float distance_world, View view)
+{
+	precise float distance = distance_world * view.unit;
+	precise float squared = distance * distance;
+	precise float grown = squared * view.unseen_growth;
+	return grown;
+}
+
+// As placementOf, where factors of edges are to be decided.
+SHARED_FN Placement placementForEdges(InstanceRecord instance, uint index, Surface surface, View view)
+{
+	Placement placement = placementOf(instance, view);
+	if (HAS_HIDDEN_FALLOFF && IS_GIVEN(surface.hidden_instances))
+		placement.hidden_squared = hiddenSquared(AT(HiddenInstance, surface.hidden_instances, index).distance_world, view);
+	return placement;
+}
 
 // Which base edge p-q lies on (from corner e to e + 1); 3: none.
 SHARED_FN uint baseEdgeOf(DomainPoint p, DomainPoint q)
@@ -208,7 +228,7 @@ SHARED_FN EdgeView edgeByMetric(Surface surface, EdgeBase base, DomainPoint p, D
 {
 	precise float unseen_squared = 0.0f;
 	if (HAS_RAY_FALLOFF)
-		unseen_squared = unseenSquared(relative_p, relative_q, base.reach, view);
+		unseen_squared = unseenSquared(relative_p, relative_q, base.reach, view) + base.hidden_squared;
 	EdgeView edge = viewEdge(relative_p, relative_q, domainLength(p, q), unseen_squared, view);
 	if (HAS_DETAIL && IS_GIVEN(surface.triangle_details))
 		return edgeByDetail(edge, surface, base, p, q, relative_p, relative_q, unseen_squared, view);

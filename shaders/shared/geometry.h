@@ -2,6 +2,7 @@
 #ifndef TESSERA_SHARED_GEOMETRY_H
 #define TESSERA_SHARED_GEOMETRY_H
 #include "shared/domain.h"
+#include "shared/hidden.h"
 
 SHARED_BEGIN
 
@@ -133,8 +134,9 @@ struct Surface
 	GPU_PTR(TriangleDetail) triangle_details;  // per triangle; metric `detail`
 	GPU_PTR(vec3) edge_roughness;              // per triangle, its three edges; metric `displaced`
 	GPU_PTR(vec3) pn_directions;               // `directions` once more where base triangles are PN triangles (shared/pn.h)
+	GPU_PTR(HiddenInstance) hidden_instances;  // per instance; where segments grow on what is hidden
 };
-SHARED_LAYOUT(Surface, 112, pn_directions, 104)
+SHARED_LAYOUT(Surface, 120, hidden_instances, 112)
 
 SHARED_END
 

@@ -82,7 +82,8 @@ inline constexpr bool HAS_WRAP_MIRROR = true;
 inline constexpr bool HAS_HEIGHT_FOOTPRINTS = false;
 inline constexpr bool HAS_DETAIL = true;
 inline constexpr bool HAS_DISPLACED_EDGES = true;
-inline constexpr bool HAS_RAY_FALLOFF = true;  // a view says whether anything falls off (View::unseen_growth)
+inline constexpr bool HAS_RAY_FALLOFF = true;     // a view says whether anything falls off (View::unseen_growth)
+inline constexpr bool HAS_HIDDEN_FALLOFF = true;  // a surface says whether it is so (Surface::hidden_instances)
 }  // namespace tessera
 
 #else

@@ -54,9 +54,11 @@ struct FrameCounts
 	uint dump_vertices;  // that dump_micro wants to write
 	uint dump_triangles;
 	uint left_items;                     // that raster_small left to raster_micro
+	uint hidden_instances;               // whose segments have grown in this frame because something hides them
+	uint shown_instances;                // of them those that may be seen all the same: the frame is drawn again
 	uint split_count[MAX_SPLIT_LEVELS];  // split triangles appended per level; level 0 by cluster_classify
 };
-SHARED_LAYOUT(FrameCounts, 200, split_count, 72)
+SHARED_LAYOUT(FrameCounts, 208, split_count, 80)
 
 // An entry of cluster_groups: up to CLUSTER_GROUP_SIZE clusters of one instance.
 #define CLUSTER_GROUP_SIZE 64u

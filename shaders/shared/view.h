@@ -87,6 +87,7 @@ struct Placement
 	vec3 translation;
 	float inverse_scale_squared;  // (mesh units per scaled world unit)^2
 	float triangle_reach;         // how far a base triangle reaches, displaced, from any of its points; 0 where nothing asks
+	float hidden_squared;         // what its being hidden adds to the squared distance that decides segments (placementForEdges); else 0
 };
 
 SHARED_FN precise float cameraRelative(float high, float low, float eye_high, float eye_low, float unit)
@@ -128,6 +129,7 @@ SHARED_FN Placement placementOf(InstanceRecord instance, View view)
 	placement.translation.z = cameraRelative(instance.translation_high.z, instance.translation_low.z, view.eye_high.z, view.eye_low.z, view.unit);
 	precise float inverse_scale_squared = instance.inverse_scale_squared * view.inverse_unit_squared;
 	placement.inverse_scale_squared = inverse_scale_squared;
+	placement.hidden_squared = 0.0f;
 	placement.triangle_reach = 0.0f;
 	if (HAS_RAY_FALLOFF)
 		placement.triangle_reach = triangleReach(instance, view);

@@ -49,7 +49,8 @@ void decideTriangles(ClusterRecord cluster, Placement placement, PlacedReach rea
 	{
 		uint triangle = args.triangles.at[cluster.first_triangle + t];
 		ClassifiedCorner p = cornerOf(triangle, 0u), q = cornerOf(triangle, 1u), r = cornerOf(triangle, 2u);
-		EdgeBase base = EdgeBase(cluster.first_triangle + t, placement.inverse_scale_squared, placement.triangle_reach);
+		EdgeBase base = EdgeBase(cluster.first_triangle + t, placement.inverse_scale_squared, placement.triangle_reach,
+		                         placement.hidden_squared);
 		uint decision = decideTriangle(base, p, q, r, view, args.rule);
 		if (decision != ALL_ONE)
 			tessellated = 1u;
@@ -129,7 +130,7 @@ void main()
 			split_count = 0u;
 			tessellated = 0u;
 		}
-		Placement placement = placementOf(args.instances.at[ref.instance], view);
+		Placement placement = placementForEdges(args.instances.at[ref.instance], ref.instance, frame_surface, view);
 		// One cluster, one answer: all lanes come by the same barriers.
 		if (!isFullByBounds(ref, placement, view))
 		{

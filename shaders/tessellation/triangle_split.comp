@@ -53,7 +53,7 @@ void loadSplit(uint lane, uint index)
 	DomainPiece piece = unpackTriangle(record);
 	ClusterRef ref = args.visible_clusters.at[piece.visible_cluster];
 	ClusterRecord cluster = args.clusters.at[ref.cluster];
-	Placement placement = placementOf(args.instances.at[ref.instance], frame_view);
+	Placement placement = placementForEdges(args.instances.at[ref.instance], ref.instance, frame_surface, frame_view);
 	uint triangle = args.triangles.at[cluster.first_triangle + piece.triangle];
 	PatternRange pattern = args.table.patterns.at[patternIndex(piece.a, piece.b, piece.c)];
 	for (uint corner = 0u; corner < 3u; ++corner)
@@ -115,7 +115,8 @@ Child decideChild(uint index)
 	PlacedReach reach;
 	if (HAS_CULLING)
 		reach = split_reaches[child.owner];
-	EdgeBase base = EdgeBase(split_triangles[child.owner], placement.inverse_scale_squared, placement.triangle_reach);
+	EdgeBase base = EdgeBase(split_triangles[child.owner], placement.inverse_scale_squared, placement.triangle_reach,
+	                         placement.hidden_squared);
 	bool culled = isOutOfView(p, q, r, reach, args.cull_frustum, view);
 	child.decision = culled ? DECISION_CULLED : decideTriangle(base, p, q, r, view, args.rule);
 	return child;

@@ -252,6 +252,8 @@ const std::array kTable = {
 	OptionDesc{ "ray-falloff", "X",
 				"with shadows or ambient occlusion: how fast segments grow with how far out of view they lie; 0 = as fine there as in view",
 				&AppOptions::ray_falloff, 0, 1000, Rebuild::Pipelines },
+	OptionDesc{ "ray-hidden", "on|off", "and so, over some frames, on instances that something hides; off = every frame is as the first",
+				choiceOf<&AppOptions::ray_hidden>(kOffOnNames), 0, 0, Rebuild::Pipelines },
 	OptionDesc{ "rays", "NAME",
 				"what rays' structures are built from: clusters and templates, all triangles at once (khr), or clusters where the device can (auto)",
 				choiceOf<&AppOptions::ray_path>(kRayPathNames), 0, 0, Rebuild::Buffers },

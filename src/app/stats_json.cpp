@@ -117,6 +117,8 @@ ordered_json raysJson(const RunFacts& facts)
 		{ "scene_bytes", rays.scene_bytes },
 		{ "scratch_bytes", rays.scratch_bytes },
 		{ "falloff", kRayFalloff.holds(facts.input) ? facts.input.options.ray_falloff : 0 },
+		{ "hidden_instances", facts.series.last.counts.hidden_instances },
+		{ "hidden_redraws", facts.series.hidden_redraws },
 	};
 	json.update(rays.clusters.built ? clustersJson(rays.clusters) : trianglesJson(rays));
 	return json;
@@ -167,6 +169,7 @@ void FrameSeries::add(const FrameResult& result)
 	frame.gpu_ms.push_back(result.gpu_ms);
 	for (const PassTime& pass : result.passes)
 		passes[pass.name].gpu_ms.push_back(pass.gpu_ms);
+	hidden_redraws += result.hidden_redraws;
 	last = result;
 }
 

@@ -29,6 +29,7 @@ struct FrameSeries
 	TimeSeries frame;
 	std::map<std::string, TimeSeries> passes;
 	FrameResult last;
+	uint64_t hidden_redraws = 0;  // of all frames
 
 	void add(const FrameResult& result);
 };

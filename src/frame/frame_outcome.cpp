@@ -30,6 +30,7 @@ void addCounts(const FrameResources& resources, FrameCountsRead& sum)
 	sum.revealed_parts += counts.revealed_parts;
 	sum.hidden_clusters += counts.hidden_clusters;
 	sum.revealed_clusters += counts.revealed_clusters;
+	sum.hidden_instances += counts.hidden_instances;
 	sum.covered_pixels = counts.covered_pixels;  // of the whole depth image, so the last round's count is the frame's
 }
 

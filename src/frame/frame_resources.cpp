@@ -94,6 +94,7 @@ Status FrameResources::refit(const PlanInput& before, const PlanInput& after)
 	const RenderOptions &was = before.options, &is = after.options;
 	TRY_ASSIGN(const auto capacities, listCapacities(after));
 	is_refitted_ = true;
+	dropHidden();
 	if (was.width_px != is.width_px || was.height_px != is.height_px)
 	{
 		has_pyramid_ = false;
@@ -188,9 +189,32 @@ void FrameResources::writeHistory(const View& view, bool makes_pyramid)
 	vkCmdUpdateBuffer(commands_->buffer(), buffer("frame_history").handle(), 0, sizeof(history), &history);
 }
 
+bool FrameResources::takeHidden()
+{
+	hidden_source_ = HiddenSource::Measured;
+	return counts().shown_instances > 0;
+}
+
+void FrameResources::writeHidden()
+{
+	const HiddenSource source = std::exchange(hidden_source_, HiddenSource::Kept);
+	if (!has("hidden_instances") || source == HiddenSource::Kept)
+		return;
+	const Buffer& hidden = buffer("hidden_instances");
+	if (source == HiddenSource::Nothing)
+		vkCmdFillBuffer(commands_->buffer(), hidden.handle(), 0, VK_WHOLE_SIZE, 0);
+	else
+	{
+		const VkBufferCopy copy = { 0, 0, hidden.bytes() };
+		vkCmdCopyBuffer(commands_->buffer(), buffer("hidden_instances_next").handle(), hidden.handle(), 1, &copy);
+	}
+	fullBarrier(commands_->buffer());
+}
+
 Status FrameResources::writeView(const View& view, uint32_t round, bool makes_pyramid, std::span<const RateStep> steps)
 {
 	writeHistory(view, makes_pyramid);
+	writeHidden();
 	round_ = round;
 	view_ = view;
 	vkCmdUpdateBuffer(commands_->buffer(), buffer("view").handle(), 0, sizeof(View), &view);
@@ -277,7 +301,7 @@ MemoryStats FrameResources::memory() const
 		else if (name == "picture" || name == "visibility_buffer" || name == "kept_visibility" || name == "depth_pyramid" ||
 				 name == "sun_visibility" || name == "ambient_visibility")
 			memory.images += held.bytes();
-		else if (name == "ray_instances")
+		else if (name == "ray_instances" || name == "hidden_instances" || name == "hidden_instances_next")
 			memory.rays += held.bytes();
 		else
 			memory.geometry += held.bytes();

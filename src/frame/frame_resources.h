@@ -44,6 +44,11 @@ public:
 	Result<bool> raysAreTooSmall(const PlanInput& input);
 	// Records the uploads of a round. `makes_pyramid`: it writes a depth pyramid. `steps`: candidates of rate_search, empty where the plan has none.
 	Status writeView(const View& view, uint32_t round, bool makes_pyramid, std::span<const RateStep> steps = {});
+	// A frame is drawn that measured what is hidden: what follows goes by that. True when an instance that had grown coarser because it was hidden
+	// may be seen: the frame must be drawn again, in which it has not.
+	bool takeHidden();
+	// The next frame is as the first: nothing is taken for hidden.
+	void dropHidden() { hidden_source_ = HiddenSource::Nothing; }
 	// Records that what follows draws from another camera (drawnFrom).
 	void recordDrawView(const View& view) const;
 	// Records that nothing has been seen yet: after rounds that were not drawn to the end.
@@ -83,6 +88,7 @@ private:
 	{}
 	// Which of the two pyramids is this frame's, and what the frame before it saw.
 	void writeHistory(const View& view, bool makes_pyramid);
+	void writeHidden();
 	void dropUnkept(const FramePlan& plan);
 	Status prepareRays(const FramePlan& plan, const PlanInput& input);
 	// Fewer micro-vertices from now on, so that the rate is coarsened until clusters fit into their memory.
@@ -120,9 +126,17 @@ private:
 	bool pyramid_is_second_ = false;  // where the last frame's depth pyramid lies
 	bool has_pyramid_ = false;        // the last frame made one
 	bool had_history_ = false;        // and the frame before it had too
-	std::vector<RateStep> steps_;     // as uploaded
-	uint32_t fixed_lists_ = 0;        // bit per list that grows no more
-	bool is_refitted_ = false;        // the next plan says what is kept of what there is
+	// Where hidden_instances is taken from before the next round: it stays, what measure_hidden wrote, or nothing is hidden.
+	enum class HiddenSource : uint8_t
+	{
+		Kept,
+		Measured,
+		Nothing,
+	};
+	HiddenSource hidden_source_ = HiddenSource::Kept;
+	std::vector<RateStep> steps_;  // as uploaded
+	uint32_t fixed_lists_ = 0;     // bit per list that grows no more
+	bool is_refitted_ = false;     // the next plan says what is kept of what there is
 
 public:
 	~FrameResources();

@@ -213,6 +213,7 @@ Status FrameResources::makeSurface(const FramePlan& plan)
 	surface.triangle_details = kept("triangle_details");
 	surface.edge_roughness = kept("edge_roughness");
 	surface.pn_directions = scene_.traits.has_pn ? surface.directions : 0;
+	surface.hidden_instances = kept("hidden_instances");
 	return upload("surface", std::as_bytes(std::span(&surface, 1)));
 }
 
@@ -339,6 +340,8 @@ Status FrameResources::make(std::string_view name, const PlanInput& input)
 		return allocate(name, sizeof(FrameHistory));
 	if (name == "depth_pyramid")
 		return allocateEmpty(name, 2 * pyramidBytes(input));
+	if (name == "hidden_instances" || name == "hidden_instances_next")
+		return allocateEmpty(name, scene_.instances.size() * sizeof(HiddenInstance));
 	if (name == "indexed_draw")
 		return allocate(name, 20);
 	if (name == "sun_visibility" || name == "ambient_visibility")

@@ -21,6 +21,8 @@ namespace
 
 // Rounds are counted in 16 bits (shade.h).
 constexpr uint32_t kMostRounds = 0x8000;
+// After so many nothing is taken for hidden.
+constexpr uint32_t kMostHiddenRedraws = 3;
 
 class SceneRenderer final : public Renderer
 {
@@ -67,6 +69,7 @@ public:
 		wanted_.insert(wanted_.end(), request.more_outputs.begin(), request.more_outputs.end());
 		after_round_ = request.after_round;
 		attempts_ = 0;
+		hidden_redraws_ = 0;
 		growNearlyFull(*resources_, input_);
 		return startAttempt();
 	}
@@ -254,6 +257,7 @@ private:
 		grant(attempt_, result_);
 		fillLists(*resources_, result_);
 		result_.attempts = attempts_;
+		result_.hidden_redraws = hidden_redraws_;
 		if (grew_ || !controller_.accept(outcome_))
 		{
 			TRY(startAttempt());
@@ -274,7 +278,18 @@ private:
 		if (!outcome_.fits || grew_)
 			return {};
 		TRY_ASSIGN(grew_, resources_->growDump());
+		takeHidden();
 		return after_round_ && !grew_ ? after_round_(round_) : Status{};
+	}
+
+	// Goes on from what a whole picture says of what is hidden. Drawn again, other instances may turn out to be seen; but not for ever.
+	void takeHidden()
+	{
+		if (grew_ || !plan_.has("measure_hidden") || !resources_->takeHidden())
+			return;
+		grew_ = true;
+		if (++hidden_redraws_ == kMostHiddenRedraws)
+			resources_->dropHidden();
 	}
 
 	// What the device made of the rate, as if it had been asked for.
@@ -313,7 +328,7 @@ private:
 	// Did looking for what is hidden pay in this frame?
 	void judgeOcclusion()
 	{
-		const bool looked = result_.rounds == 1 && plan_.has("depth_pyramid") && resources_->hadHistory();
+		const bool looked = result_.rounds == 1 && kLooksForHidden.holds(input_) && resources_->hadHistory();
 		const OcclusionOutcome outcome = occlusionOutcome(result_);
 		occlusion_.endFrame(looked ? &outcome : nullptr);
 	}
@@ -347,7 +362,7 @@ private:
 	std::optional<Camera> drawn_from_;
 	View draw_view_ = {};
 	RoundReader after_round_;
-	uint32_t attempts_ = 0, round_ = 0;
+	uint32_t attempts_ = 0, round_ = 0, hidden_redraws_ = 0;
 	Attempt attempt_;
 	AttemptOutcome outcome_;
 	FrameResult result_;
@@ -355,7 +370,8 @@ private:
 	std::vector<RateStep> steps_;    // candidates of the attempt
 	bool rounds_left_over_ = false;  // the last attempt ended between rounds: what it saw is still in the visibility buffer
 	uint32_t levels_needed_ = 0;     // more split levels than the host foresaw were needed
-	bool grew_ = false;              // the frame must be drawn again with more levels or larger packings, at the same rate
+	bool grew_ =
+		false;  // the frame must be drawn again at the same rate: with more levels, larger packings, or what turned out to be seen as fine as it is
 };
 
 }  // namespace

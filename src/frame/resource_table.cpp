@@ -4,6 +4,7 @@
 #include "raster/dump_micro.h"
 #include "raytracing/place_instances.h"
 #include "shading/material_record.h"
+#include "shared/hidden.h"
 #include "shared/history.h"
 
 #include <algorithm>
@@ -193,6 +194,8 @@ constexpr ResourceDesc kResources[] = {
 	  [](const PlanInput& input) -> uint64_t {
 		  return 2 * uint64_t(pyramidFirst(input.options.width_px, input.options.height_px, PYRAMID_LEVELS)) * sizeof(float);
 	  } },
+	{ "hidden_instances", "buffer", perInstance<sizeof(HiddenInstance)> },
+	{ "hidden_instances_next", "buffer", perInstance<sizeof(HiddenInstance)> },
 	{ "picture", "image", perPixel<4> },
 };
 

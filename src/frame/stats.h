@@ -64,6 +64,7 @@ struct FrameCountsRead
 	uint64_t revealed_parts = 0;   // drawn in the second
 	uint64_t hidden_clusters = 0;  // full ones, likewise
 	uint64_t revealed_clusters = 0;
+	uint64_t hidden_instances = 0;  // whose segments had grown because something hides them
 	uint64_t covered_pixels = 0;
 };
 
@@ -75,7 +76,8 @@ struct FrameResult
 	uint32_t coarsening = 0;  // j: the granted rate is rate x 2^(j/16)
 	bool every_factor_one = false;
 	uint32_t rounds = 1;
-	uint32_t attempts = 1;  // 1: the device found a rate that fits, or needed none; more: rounds, or packings that grew
+	uint32_t attempts = 1;        // 1: the device found a rate that fits, or needed none; more: rounds, or packings that grew
+	uint32_t hidden_redraws = 0;  // of them: drawn again because an instance that had been hidden was seen
 	FrameCountsRead counts;
 	std::vector<ListStats> lists;
 	RayStats rays;

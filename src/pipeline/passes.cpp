@@ -10,8 +10,8 @@ std::span<const PassDesc* const> framePasses()
 		&kBatchParts,     &kRateFit,          &kEvaluateVertices,    &kBuildGeometry,   &kClearClusters,   &kListClusters,
 		&kListStructures, &kInsertClusters,   &kInstantiateClusters, &kBuildTransients, &kBuildStructures, &kPlaceInstances,
 		&kBuildScene,     &kTraceVisibility,  &kTraceClusters,       &kRasterSmall,     &kRasterMicro,     &kDepthPyramid,
-		&kRetestParts,    &kRasterRevealed,   &kDrawClusters,        &kDrawBatches,     &kDrawIndexed,     &kDumpMicro,
-		&kKeepVisibility, &kTraceShadows,     &kTraceAmbient,        &kShade,
+		&kMeasureHidden,  &kRetestParts,      &kRasterRevealed,      &kDrawClusters,    &kDrawBatches,     &kDrawIndexed,
+		&kDumpMicro,      &kKeepVisibility,   &kTraceShadows,        &kTraceAmbient,    &kShade,
 	};
 	return kPasses;
 }

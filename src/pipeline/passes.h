@@ -31,6 +31,7 @@ extern const PassDesc kBuildScene;
 extern const PassDesc kTraceVisibility;
 extern const PassDesc kTraceClusters;
 extern const PassDesc kDepthPyramid;
+extern const PassDesc kMeasureHidden;
 extern const PassDesc kRetestParts;
 extern const PassDesc kRasterRevealed;
 extern const PassDesc kDrawClusters;

@@ -241,6 +241,25 @@ inline constexpr Condition kRayFalloff = {
 	[](const PlanInput& input) { return tracesLight(input) && input.device.rays && input.options.ray_falloff > 0 && input.options.rate > 0; },
 	"no shadows or ambient occlusion are traced, --ray-falloff is 0, or nothing is tessellated", nullptr, kChoosesTriangles
 };
+// So is what something hides, over some frames; which instances those are is read from words of depth and payload.
+inline constexpr Condition kHiddenFalloff = { [](const PlanInput& input) {
+												 return kRayFalloff.holds(input) && input.options.ray_hidden && input.sizes.instances > 1 &&
+														kBuffered.holds(input);
+											 },
+											  "nothing falls off out of view, --ray-hidden is off, there is one instance, or attachments hold depth",
+											  nullptr, kChoosesTriangles };
+inline constexpr Condition kMeasuresHidden = {
+	[](const PlanInput& input) { return kHiddenFalloff.holds(input) && kTessellates.holds(input) && !input.view.is_seen_elsewhere; },
+	"segments of what is hidden do not grow, nothing is tessellated, or the picture is seen from elsewhere", nullptr, kChoosesTriangles
+};
+inline constexpr Condition kMakesPyramid = {
+	[](const PlanInput& input) { return kLooksForHidden.holds(input) || kMeasuresHidden.holds(input); },
+	"occlusion culling is off, attachments hold depth, or the last frames hid too little for its cost; and no rays of light meet what is hidden",
+	kLooksForHidden.can_be_forced, kLooksForHidden.why_not_forced
+};
+// What factors of edges are read from beside their ends.
+inline constexpr Condition kEdgeTables = { [](const PlanInput& input) { return kMetricTables.holds(input) || kHiddenFalloff.holds(input); },
+										   "the metric needs no tables, and segments of what is hidden do not grow", nullptr, kChoosesTriangles };
 inline constexpr Condition kRtMixedSides = { [](const PlanInput& input) { return kRt.holds(input) && kMixedSides.holds(input); },
 											 "all materials show the same sides", nullptr, kTracesNothing };
 inline constexpr Condition kRtMixedSidesOfParts = { [](const PlanInput& input) { return kRtMixedSides.holds(input) && kTessellates.holds(input); },

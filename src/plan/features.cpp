@@ -50,6 +50,7 @@ std::vector<Feature> shaderFeatures(const PlanInput& input)
 		{ "HAS_DETAIL", 30, &kDetailMetric },
 		{ "HAS_DISPLACED_EDGES", 31, &kDisplacedMetric },
 		{ "HAS_RAY_FALLOFF", 53, &kRayFalloff },
+		{ "HAS_HIDDEN_FALLOFF", 54, &kHiddenFalloff },
 		{ "DIRECTIONS_ARE_NORMALS", 22, &kDirectionsAreNormals },
 	};
 	std::vector<Feature> features;

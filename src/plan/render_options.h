@@ -92,6 +92,7 @@ struct RenderOptions
 	uint32_t ao_samples = 0;        // rays per pixel for ambient occlusion; 0: none
 	float ao_radius_world = 0;      // what is farther does not occlude; 0: a tenth of the scene's radius
 	float ray_falloff = 4;          // how fast segments grow outside the view where only rays of light meet them; 0: not at all
+	bool ray_hidden = true;         // and so, over some frames, on instances that something hides
 	RayPath ray_path = RayPath::Auto;
 	// Where rays' structures are built from clusters:
 	bool transient_units = true;   // triangles of factor 1 in mixed clusters are built together, else each as its pattern

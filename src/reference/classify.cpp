@@ -79,7 +79,10 @@ private:
 		return { domainCorner(corner), relative_[triangleVertex(triangle, corner)] };
 	}
 
-	EdgeBase edgeBase(uint32_t t) const { return { cluster_.first_triangle + t, placement_.inverse_scale_squared, placement_.triangle_reach }; }
+	EdgeBase edgeBase(uint32_t t) const
+	{
+		return { cluster_.first_triangle + t, placement_.inverse_scale_squared, placement_.triangle_reach, placement_.hidden_squared };
+	}
 
 	void add(Decision decision, DomainPoint p, DomainPoint q, DomainPoint r, uint32_t visible_cluster, uint32_t triangle, uint32_t level)
 	{

@@ -89,6 +89,13 @@ void HostScene::giveTables(Metric metric)
 	}
 }
 
+void HostScene::setHidden(std::vector<HiddenInstance> hidden)
+{
+	CHECK(hidden.empty() || hidden.size() == instances_.size(), "{} hidden instances of {}", hidden.size(), instances_.size());
+	hidden_ = std::move(hidden);
+	surface_.hidden_instances = addressOf<HiddenInstance>(hidden_);
+}
+
 void HostScene::fillStandIns()
 {
 	const size_t vertices = built_.positions.size();

@@ -2,7 +2,7 @@
 #pragma once
 #include "scene/metric.h"
 #include "scene/scene.h"
-#include "shared/edge_factor.h"
+#include "shared/edge_detail.h"
 #include "shared/pattern.h"
 #include "shared/surface.h"
 #include "tables/table.h"
@@ -33,8 +33,11 @@ public:
 	std::span<const InstanceRecord> instances() const { return instances_; }
 	std::span<const vec3> directions() const { return directions_; }  // per vertex, also where the scene keeps none
 
+	// What of a frame's instances is taken for hidden, as the device has it (hidden_instances); empty: nothing. Errors of size are our bug.
+	void setHidden(std::vector<HiddenInstance> hidden);
+
 	const ClusterRecord& cluster(ClusterRef ref) const { return built_.clusters[ref.cluster]; }
-	Placement placement(ClusterRef ref, const View& view) const { return placementOf(instances_[ref.instance], view); }
+	Placement placement(ClusterRef ref, const View& view) const { return placementForEdges(instances_[ref.instance], ref.instance, surface_, view); }
 	BaseTriangle base(ClusterRef ref, uint32_t triangle) const { return baseTriangle(surface_, cluster(ref), triangle); }
 
 	// a, b, c: 1..tableSize(), in pattern order.
@@ -55,6 +58,7 @@ private:
 	std::vector<vec3> no_roughness_;
 	std::vector<HeightMap> height_maps_;
 	std::vector<InstanceRecord> instances_;
+	std::vector<HiddenInstance> hidden_;
 	std::vector<PatternRange> patterns_;
 	Surface surface_ = {};
 	TableView table_ = {};

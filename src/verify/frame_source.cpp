@@ -108,7 +108,10 @@ Result<std::unique_ptr<FrameSource>> FrameSource::create(Device& device, const r
 	}
 	const OtherLimits other(device, variation);
 	const std::span<const std::string_view> outputs = with_micro ? std::span<const std::string_view>(kDumpAndVisibilityOutputs) : kVisibilityOutputs;
-	TRY_ASSIGN(source->renderer_, Renderer::create(device, variation.shuffled ? source->shuffled_ : given, table, framePasses(), options, outputs));
+	// What a frame is may not depend on those before it: they are compared.
+	RenderOptions alone = options;
+	alone.ray_hidden = false;
+	TRY_ASSIGN(source->renderer_, Renderer::create(device, variation.shuffled ? source->shuffled_ : given, table, framePasses(), alone, outputs));
 	return source;
 }
 

@@ -91,7 +91,7 @@ DomainPoint onEdge(uint32_t edge, uint32_t from_corner)
 
 EdgeBase baseOf(uint32_t triangle)
 {
-	return { triangle, 1.0f, 0.0f };
+	return { triangle, 1.0f, 0.0f, 0.0f };
 }
 
 uint64_t microTriangles(const ImportedScene& imported, Metric metric, const Camera& camera, const ViewRequest& asked)

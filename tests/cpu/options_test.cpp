@@ -89,6 +89,7 @@ const std::vector<std::pair<std::string, std::string>> kSamples = {
 	{ "ao", "16" },
 	{ "ao-radius", "0.25" },
 	{ "ray-falloff", "2.5" },
+	{ "ray-hidden", "off" },
 	{ "rays", "khr" },
 	{ "transient-1x1x1", "off" },
 	{ "transient-2x2x2", "off" },

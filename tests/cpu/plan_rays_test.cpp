@@ -48,6 +48,46 @@ TEST(framePlan, segmentsFallOffOutOfViewOnlyWhereRaysOfLightMeetThem)
 	EXPECT_TRUE(featureOn(planOf(ambient), "HAS_RAY_FALLOFF"));
 }
 
+TEST(framePlan, whatIsHiddenFallsOffOnlyWhereItCanBeMeasured)
+{
+	PlanInput input = fullInput();
+	input.device.rays = input.device.buffer_atomics_64 = true;
+	input.options.shadows = true;
+	for (const Raster raster : { Raster::Soft, Raster::Rt })
+	{
+		input.options.raster = raster;
+		const FramePlan plan = planOf(input);
+		EXPECT_TRUE(plan.has("measure_hidden") && plan.has("depth_pyramid")) << rasterName(raster);
+		EXPECT_TRUE(featureOn(plan, "HAS_HIDDEN_FALLOFF") && plan.keeps("hidden_instances") && plan.keeps("mesh_bounds")) << rasterName(raster);
+		EXPECT_FALSE(plan.has("retest_parts") || featureOn(plan, "HAS_OCCLUSION")) << "nothing is culled";
+	}
+	const auto expectNothing = [](const PlanInput& other, const char* what) {
+		const FramePlan plan = planOf(other);
+		expectDropped(plan, { "measure_hidden", "depth_pyramid" });
+		expectLeftOut(plan, { "hidden_instances", "hidden_instances_next", "depth_pyramid", "frame_history" });
+		EXPECT_FALSE(featureOn(plan, "HAS_HIDDEN_FALLOFF")) << what;
+	};
+	PlanInput unlit = input, off = input, single = input, attached = input, as_stored = input, level = input;
+	unlit.options.shadows = false;
+	expectNothing(unlit, "no light is traced");
+	off.options.ray_hidden = false;
+	expectNothing(off, "it is off");
+	level.options.ray_falloff = 0;
+	expectNothing(level, "nothing falls off");
+	single.sizes.instances = 1;
+	expectNothing(single, "nothing can hide the only instance");
+	EXPECT_NE(planOf(single).reason("measure_hidden").find("segments of what is hidden do not grow"), std::string::npos);
+	attached.options.raster = Raster::Mesh;
+	expectNothing(attached, "depth lies in an attachment");
+	as_stored.options.rate = 0;
+	expectNothing(as_stored, "nothing is tessellated");
+	// Seen from elsewhere it stays as it is: tessellated as for the other camera, with nothing to measure.
+	PlanInput elsewhere = input;
+	elsewhere.view.is_seen_elsewhere = true;
+	EXPECT_FALSE(planOf(elsewhere).has("measure_hidden"));
+	EXPECT_TRUE(featureOn(planOf(elsewhere), "HAS_HIDDEN_FALLOFF") && planOf(elsewhere).keeps("hidden_instances"));
+}
+
 TEST(framePlan, raysFindVisibilityInPlaceOfRasterisers)
 {
 	PlanInput input = fullInput();
@@ -116,6 +156,7 @@ TEST(framePlan, lightKeepsWhatCullingWouldRemove)
 	input.device.rays = input.device.buffer_atomics_64 = true;
 	input.options.raster = Raster::Soft;
 	input.options.shadows = true;
+	input.options.ray_hidden = false;
 	const FramePlan plan = planOf(input);
 	EXPECT_TRUE(plan.has("trace_shadows"));
 	expectDropped(plan, { "trace_ambient", "trace_visibility", "depth_pyramid", "raster_revealed" });

@@ -99,6 +99,8 @@ struct HostLayout
 #define FIELDS_17(T, a, ...) FIELD(T, a), FIELDS_16(T, __VA_ARGS__)
 #define FIELDS_18(T, a, ...) FIELD(T, a), FIELDS_17(T, __VA_ARGS__)
 #define FIELDS_19(T, a, ...) FIELD(T, a), FIELDS_18(T, __VA_ARGS__)
+#define FIELDS_20(T, a, ...) FIELD(T, a), FIELDS_19(T, __VA_ARGS__)
+#define FIELDS_21(T, a, ...) FIELD(T, a), FIELDS_20(T, __VA_ARGS__)
 #define LAYOUT(count, T, ...)              \
 	HostLayout                             \
 	{                                      \
@@ -145,12 +147,13 @@ std::vector<HostLayout> hostLayouts()
 		LAYOUT(5, SeamEdge, uv_first, uv_second, density_first, density_second, height_map),
 		LAYOUT(3, SeamCorner, uv, density, height_map),
 		LAYOUT(2, TriangleDetail, curves, bias),
-		LAYOUT(14, Surface, positions, directions, uvs, densities, triangles, first_seam_edges, seam_edges, seam_corner_indices, seam_corners,
-			   material_height_maps, height_maps, triangle_details, edge_roughness, pn_directions),
+		LAYOUT(3, HiddenInstance, distance_world, margin, frames),
+		LAYOUT(15, Surface, positions, directions, uvs, densities, triangles, first_seam_edges, seam_edges, seam_corner_indices, seam_corners,
+			   material_height_maps, height_maps, triangle_details, edge_roughness, pn_directions, hidden_instances),
 		LAYOUT(8, ListHead, group_width, group_rows, group_depth, wanted, capacity, peak, peak_used, unused),
-		LAYOUT(19, FrameCounts, overflow, covered_pixels, micro_low, micro_high, full_cluster_triangles, expanded_triangles, rate_step, listed_again,
+		LAYOUT(21, FrameCounts, overflow, covered_pixels, micro_low, micro_high, full_cluster_triangles, expanded_triangles, rate_step, listed_again,
 			   levels_missing, search_finished, second_batches, hidden_parts, revealed_parts, hidden_clusters, revealed_clusters, dump_vertices,
-			   dump_triangles, left_items, split_count),
+			   dump_triangles, left_items, hidden_instances, shown_instances, split_count),
 		LAYOUT(11, RateStep, rate_over_focal_squared, sample_over_focal_squared, rule, split_triangles, part_triangles, part_vertices,
 			   part_micro_triangles, full_clusters, full_vertices, full_micro_triangles, abandoned),
 		LAYOUT(3, ClusterGroup, instance, first_cluster, cluster_count),
@@ -375,46 +378,13 @@ TEST(sharedFloatCode, isNeverContractedAndUsesOnlyExactOperations)
 		check.check(module, exact);
 	EXPECT_EQ(joined(check.problems), "");
 	EXPECT_GT(check.operations, 200u);
-	for (const char* name : { "edgeHasAtLeast",
-							  "viewEdge",
-							  "unseenSquared",
-							  "triangleReach",
-							  "weighted",
-							  "weightedVec3",
-							  "normalized",
-							  "placed",
-							  "affineRow",
-							  "clipPosition",
-							  "cameraRelative",
-							  "scaledRow",
-							  "rateDistanceSquared",
-							  "placementOf",
-							  "domainWeights",
-							  "foldCoordinate",
-							  "texelPlace",
-							  "texelHeight",
-							  "blendHeights",
-							  "levelHeight",
-							  "roughLog2",
-							  "heightLevel",
-							  "heightAt",
-							  "displacementAt",
-							  "displacedPoint",
-							  "displaced",
-							  "sampleAtPoint",
-							  "sampleAtVertex",
-							  "seamEdgeSource",
-							  "edgeByMetric",
-							  "edgeByDetail",
-							  "edgeAsDisplaced",
-							  "longestWithin",
-							  "nearestDistanceSquared",
-							  "basePoint",
-							  "pnRise",
-							  "pnCoefficient",
-							  "pnCoefficients",
-							  "pnTakenAway",
-							  "pnPoint" })
+	for (const char* name :
+		 { "edgeHasAtLeast", "viewEdge",       "unseenSquared",  "hiddenSquared",  "triangleReach",   "weighted",      "weightedVec3",
+		   "normalized",     "placed",         "affineRow",      "clipPosition",   "cameraRelative",  "scaledRow",     "rateDistanceSquared",
+		   "placementOf",    "domainWeights",  "foldCoordinate", "texelPlace",     "texelHeight",     "blendHeights",  "levelHeight",
+		   "roughLog2",      "heightLevel",    "heightAt",       "displacementAt", "displacedPoint",  "displaced",     "sampleAtPoint",
+		   "sampleAtVertex", "seamEdgeSource", "edgeByMetric",   "edgeByDetail",   "edgeAsDisplaced", "longestWithin", "nearestDistanceSquared",
+		   "basePoint",      "pnRise",         "pnCoefficient",  "pnCoefficients", "pnTakenAway",     "pnPoint" })
 		EXPECT_TRUE(check.functions.count(name)) << name << ": no shader has it, so it was not checked";
 }
 

@@ -3,6 +3,7 @@
 #include "shared/visibility.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace tessera::test
 {
@@ -130,7 +131,11 @@ std::vector<VisiblePixel> visibilityOf(const GpuFrame& frame)
 {
 	const std::vector<float> depths = frame.read<float>("visibility_depth");
 	const std::vector<uint32_t> payloads = frame.read<uint32_t>("visibility_payload");
-	std::vector<VisiblePixel> pixels(depths.size());
+	const std::vector<uint64_t> words = frame.read<uint64_t>("kept_visibility");
+	std::vector<VisiblePixel> pixels(std::max(depths.size(), words.size()));
+	for (size_t i = 0; i < words.size(); ++i)
+		if (words[i] != 0)
+			pixels[i] = { std::bit_cast<float>(uint32_t(words[i] >> 32)), resolve(frame, uint32_t(words[i])) };
 	for (size_t i = 0; i < depths.size(); ++i)
 		if (depths[i] > 0)
 			pixels[i] = { depths[i], resolve(frame, payloads[i]) };

@@ -25,7 +25,7 @@ struct VisiblePixel
 	bool covered() const { return depth > 0; }
 };
 
-// The frame's depth and payload images, resolved. Empty when its raster path has none.
+// The frame's depth and payload images, resolved. Of paths that have none, kept_visibility, where the renderer was made with it; else empty.
 std::vector<VisiblePixel> visibilityOf(const GpuFrame& frame);
 
 struct VisibilityDifference

@@ -23,7 +23,7 @@ static void record(PassContext& pass)
 	pass.dispatch(args, (pass.input().options.width_px + kTilePx - 1) / kTilePx, (pass.input().options.height_px + kTilePx - 1) / kTilePx);
 }
 
-static constexpr const Condition* kNeeded[] = { &kLooksForHidden };
+static constexpr const Condition* kNeeded[] = { &kMakesPyramid };
 static constexpr std::string_view kShaders[] = { "culling/depth_pyramid.comp" };
 
 const PassDesc kDepthPyramid = { "depth_pyramid", kUses, kNeeded, kShaders, nullptr, record };

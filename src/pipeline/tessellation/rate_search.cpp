@@ -20,6 +20,7 @@ static constexpr Use kUses[] = {
 	{ "triangles", Access::ComputeRead },
 	{ "triangle_details", Access::ComputeRead, &kDetail },
 	{ "edge_roughness", Access::ComputeRead, &kDisplacedEdges },
+	{ "hidden_instances", Access::ComputeRead, &kHiddenFalloff },
 	{ "patterns", Access::ComputeRead },
 	{ "table_vertices", Access::ComputeRead },
 	{ "table_triangles", Access::ComputeRead },
