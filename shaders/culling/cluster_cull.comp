@@ -2,7 +2,9 @@
 //
 //   in   cluster_groups     ClusterGroup[]      from instance_classify
 //   in   cluster_bounds     DisplacedBounds[]   only with culling
+//   in   shared_instances   uint[]              only with structures that instances share
 //   out  visible_clusters   ClusterRef[]        to cluster_classify
+//   out  shared_clusters    uint[]              likewise, with primary rays: per cluster of such an instance, its place in visible_clusters
 //   out  full_clusters      FullCluster[]           only when nothing can be tessellated: every visible cluster, to draw_clusters
 //
 // One workgroup takes one group at a time, one lane a cluster. Conservative: a culled cluster cannot touch a pixel (C3).
@@ -56,6 +58,20 @@ bool isVisible(ClusterGroup group, uint cluster)
 	return args.cull_backface == 0u || !isBackFacing(bounds, instance, placement, view);
 }
 
+// Where primary rays that meet a cluster in a shared structure find it; NO_INDEX: it is listed nowhere.
+void placeShared(ClusterGroup group, uint cluster, uint place)
+{
+	uint first = args.meshes.at[args.instances.at[group.instance].mesh].first_cluster;
+	args.shared_clusters.at[args.shared_instances.at[group.instance] + cluster - first] = place;
+}
+
+uint fullPhase(ClusterGroup group, uint cluster, bool is_shared)
+{
+	if (is_shared)
+		return PHASE_SHARED;
+	return HAS_OCCLUSION && wasHidden(args.cluster_bounds.at[cluster], args.instances.at[group.instance]) ? PHASE_HIDDEN : PHASE_FIRST;
+}
+
 void main()
 {
 	uint group_count = entriesOf(args.heads, LIST_CLUSTER_GROUPS);
@@ -79,13 +95,15 @@ void main()
 		}
 		barrier();
 
+		bool is_shared = SHARES_STRUCTURES && args.shared_instances.at[group.instance] != NOT_SHARED;
+		if (is_shared && gl_LocalInvocationIndex < group.cluster_count && uint64_t(args.shared_clusters) != 0ul)
+			placeShared(group, cluster, visible ? first_visible + place : NO_INDEX);
 		if (visible && first_visible + place < args.heads.at[LIST_VISIBLE_CLUSTERS].capacity)
 		{
 			args.visible_clusters.at[first_visible + place] = ClusterRef(group.instance, cluster);
-			bool hidden = HAS_OCCLUSION && args.emit_full != 0u && wasHidden(args.cluster_bounds.at[cluster], args.instances.at[group.instance]);
 			if (args.emit_full != 0u)
 				listFullCluster(args.heads, args.counts, args.full_clusters, first_full + place, first_visible + place, args.clusters.at[cluster],
-				                hidden ? PHASE_HIDDEN : PHASE_FIRST);
+				                fullPhase(group, cluster, is_shared));
 		}
 		barrier();
 	}

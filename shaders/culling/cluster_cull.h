@@ -4,6 +4,7 @@
 #include "shared/bounds.h"
 #include "shared/geometry.h"
 #include "shared/lists.h"
+#include "shared/ray_sharing.h"
 
 SHARED_BEGIN
 
@@ -17,11 +18,14 @@ struct ClusterCullArgs
 	GPU_PTR(ClusterGroup) cluster_groups;
 	GPU_PTR(ClusterRef) visible_clusters;
 	GPU_PTR(FullCluster) full_clusters;  // 0 when cluster_classify decides which clusters are full
+	GPU_PTR(MeshRecord) meshes;          // this and the next two: with structures that instances share
+	GPU_PTR(uint) shared_instances;
+	GPU_PTR(uint) shared_clusters;  // 0: no primary rays ask
 	uint cull_frustum;
 	uint cull_backface;
 	uint emit_full;  // 1: no factor can exceed 1, every visible cluster is full
 };
-SHARED_LAYOUT(ClusterCullArgs, 80, emit_full, 72)
+SHARED_LAYOUT(ClusterCullArgs, 104, emit_full, 96)
 
 SHARED_END
 

@@ -39,6 +39,8 @@ void main()
 		args.counts.at[0].left_items = 0u;
 		args.counts.at[0].hidden_instances = 0u;
 		args.counts.at[0].shown_instances = 0u;
+		args.counts.at[0].shared_instances = 0u;
+		args.counts.at[0].shared_clusters = 0u;
 		args.counts.at[0].rate_step = 0u;
 		args.counts.at[0].listed_again = 0u;
 		args.counts.at[0].levels_missing = 0u;

@@ -1,8 +1,11 @@
 // instance_classify: cull instances by their displaced bounds; cut what is left into groups of clusters.
 //
 //   in   instances        InstanceRecord[]
-//   in   mesh_bounds      DisplacedBounds[]    only with frustum culling
+//   in   mesh_bounds      DisplacedBounds[]    only with frustum culling or shared structures
+//   in   mesh_structures  addresses            of structures that instances share when rays are traced; only with those
 //   out  cluster_groups   ClusterGroup[]       up to CLUSTER_GROUP_SIZE clusters of one visible instance: to cluster_cull
+//
+//   out  shared_instances uint[]               likewise: which instances do, and where their clusters begin in shared_clusters
 //
 // One thread takes one instance at a time. A frame drawn in several rounds (C2) takes every n-th group per round.
 // Host: src/pipeline/culling/instance_classify.cpp
@@ -18,7 +21,7 @@ layout(push_constant, scalar) uniform Args { InstanceClassifyArgs args; };
 
 bool isVisible(InstanceRecord instance)
 {
-	if (!HAS_CULLING || uint64_t(args.mesh_bounds) == 0ul)
+	if (!HAS_CULLING || args.cull_frustum == 0u)
 		return true;
 	View view = frame_view;
 	Box box = displacedBox(args.mesh_bounds.at[instance.mesh], view.displacement_scale, view.displacement_offset);
@@ -48,13 +51,28 @@ void appendGroups(uint index, MeshRecord mesh)
 	}
 }
 
+// One answer for all of the instance's clusters.
+uint sharedPlace(InstanceRecord instance, MeshRecord mesh)
+{
+	View view = frame_view;
+	if (args.mesh_structures.at[instance.mesh] == uvec2(0u) ||
+	    !mayShare(args.mesh_bounds.at[instance.mesh], placementOf(instance, view), args.sharing, view))
+		return NOT_SHARED;
+	atomicAdd(args.counts.at[0].shared_instances, 1u);
+	return atomicAdd(args.counts.at[0].shared_clusters, mesh.cluster_count);
+}
+
 void main()
 {
 	uint stride = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
 	for (uint index = gl_GlobalInvocationID.x; index < args.instance_count; index += stride)
 	{
 		InstanceRecord instance = args.instances.at[index];
-		if (isVisible(instance))
-			appendGroups(index, args.meshes.at[instance.mesh]);
+		MeshRecord mesh = args.meshes.at[instance.mesh];
+		bool is_visible = isVisible(instance);
+		if (SHARES_STRUCTURES)
+			args.shared_instances.at[index] = is_visible ? sharedPlace(instance, mesh) : NOT_SHARED;
+		if (is_visible)
+			appendGroups(index, mesh);
 	}
 }

@@ -36,6 +36,7 @@ layout(constant_id = 54) const bool HAS_HIDDEN_FALLOFF = false;
 layout(constant_id = 14) const bool READS_BUFFER = true;
 layout(constant_id = 24) const bool HAS_RAYS = true;
 layout(constant_id = 27) const bool KEEPS_PLACES = false;
+layout(constant_id = 55) const bool SHARES_STRUCTURES = false;
 layout(constant_id = 50) const bool BUILDS_CLUSTERS = false;
 layout(constant_id = 51) const bool HAS_TRANSIENT_UNITS = true;
 layout(constant_id = 52) const bool HAS_TRANSIENT_GROUPS = true;

@@ -12,9 +12,11 @@ void listFullCluster(ListHeadRef heads, FrameCountsRef counts, FullClusterRef fu
 	atomicAdd(counts.at[0].full_cluster_triangles, clusterTriangles(cluster));
 	if (HAS_OCCLUSION && phase == PHASE_HIDDEN)
 		atomicAdd(counts.at[0].hidden_clusters, 1u);
-	if (KEEPS_VERTICES)
+	// What rays meet in a shared structure is placed only for those who draw, and expanded for nobody.
+	bool is_shared = SHARES_STRUCTURES && phase == PHASE_SHARED;
+	if (KEEPS_VERTICES && !(is_shared && READS_BUFFER))
 		full.first_vertex = reserveEntries(heads, LIST_MICRO_VERTICES, clusterVertices(cluster));
-	if (EXPANDS_TRIANGLES)
+	if (EXPANDS_TRIANGLES && !is_shared)
 		reserveEntries(heads, LIST_EXPANDED_TRIANGLES, clusterTriangles(cluster));
 	if (slot < heads.at[LIST_FULL_CLUSTERS].capacity)
 		full_clusters.at[slot] = full;

@@ -12,10 +12,14 @@ uint payloadCluster(RasterInputs inputs, uint payload)
 	return index;
 }
 
+bool isSingleSidedCluster(RasterInputs inputs, uint cluster)
+{
+	return (inputs.material_flags.at[inputs.clusters.at[cluster].material] & MATERIAL_DOUBLE_SIDED) == 0u;
+}
+
 bool isSingleSided(RasterInputs inputs, uint payload)
 {
-	ClusterRef ref = inputs.visible_clusters.at[payloadCluster(inputs, payload)];
-	return (inputs.material_flags.at[inputs.clusters.at[ref.cluster].material] & MATERIAL_DOUBLE_SIDED) == 0u;
+	return isSingleSidedCluster(inputs, inputs.visible_clusters.at[payloadCluster(inputs, payload)].cluster);
 }
 
 // For fragments: true when this side of the triangle is not shown.

@@ -6,7 +6,9 @@
 //   out  expanded_triangles   uint[]   only when drawn indexed or traced: three indices per triangle for the whole list, then one
 //                                      payload per triangle; ranges are taken by atomics, so their order is free, unless
 //                                      every cluster keeps its place (KEEPS_PLACES). A build takes its count
-//                                      from the host: triangles that it has and the frame has not get no area
+//                                      from the host: triangles that it has and the frame has not get no area.
+//                                      Full clusters of instances that share structures (PHASE_SHARED) get no triangles, and vertices only
+//                                      where they are drawn
 //
 // In compute and not in the mesh shader: some devices run mesh shaders on few of their processors, and the same vertices
 // serve the indexed draw. One workgroup takes one full cluster or batch at a time.
@@ -64,12 +66,12 @@ void placeTriangles(WorkItem item)
 	barrier();
 }
 
-void evaluateItem(WorkItem item)
+void evaluateItem(WorkItem item, bool expands)
 {
 	uint first_vertex = vertexPlace(item);
 	for (uint v = gl_LocalInvocationIndex; v < item.vertex_count; v += gl_WorkGroupSize.x)
 		args.vertices.at[first_vertex + v] = keptVertex(itemVertex(args.inputs, item, v));
-	if (EXPANDS_TRIANGLES)
+	if (EXPANDS_TRIANGLES && expands)
 	{
 		placeTriangles(item);
 		for (uint t = gl_LocalInvocationIndex; t < item.triangle_count; t += gl_WorkGroupSize.x)
@@ -99,9 +101,13 @@ void main()
 	uint cluster_count = args.heads.at[LIST_FULL_CLUSTERS].wanted;
 	uint item_count = cluster_count + (HAS_TESSELLATION ? args.heads.at[LIST_BATCHES].wanted : 0u);
 	if (HAS_RAYS && EXPANDS_TRIANGLES)
-		deactivateTriangles(overflow ? 0u : args.heads.at[LIST_EXPANDED_TRIANGLES].wanted, !overflow && item_count > 0u);
+		deactivateTriangles(overflow ? 0u : args.heads.at[LIST_EXPANDED_TRIANGLES].wanted, !overflow && args.heads.at[LIST_MICRO_VERTICES].wanted > 0u);
 	if (overflow)
 		return;
 	for (uint index = gl_WorkGroupID.x; index < item_count; index += gl_NumWorkGroups.x)
-		evaluateItem(workItem(args.inputs, args.full_clusters, args.batches, index, cluster_count));
+	{
+		bool is_shared = SHARES_STRUCTURES && index < cluster_count && args.full_clusters.at[index].phase == PHASE_SHARED;
+		if (!(is_shared && READS_BUFFER))
+			evaluateItem(workItem(args.inputs, args.full_clusters, args.batches, index, cluster_count), !is_shared);
+	}
 }

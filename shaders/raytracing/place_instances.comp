@@ -1,6 +1,10 @@
 // place_instances: say where the structures lie that rays are traced through.
 //
 //   out  ray_instances   RayInstance[]   0: the frame's micro-triangles, which are relative to the eye already
+//   with structures that instances share (SHARES_STRUCTURES), behind it:
+//   in   shared_instances, instances, mesh_structures
+//   out  ray_instances   RayInstance[]   one per instance of the scene, inactive where it does not share. A structure is in its mesh's space, where
+//                                        the driver looks for the side that a triangle shows: mirrored instances are nothing special
 //   with clusters (BUILDS_CLUSTERS):
 //   in   ray_references  the structures' addresses and sizes, from the driver
 //   out  ray_instances   RayInstance[]   one per instance of the scene, inactive where it has no cluster; the same place for all, since vertices
@@ -11,6 +15,7 @@
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x_id = 0) in;
 #include "lib/features.glsl"
+#include "lib/frame_data.glsl"
 #include "raytracing/place_instances.h"
 
 layout(push_constant, scalar) uniform Args { PlaceInstancesArgs args; };
@@ -27,6 +32,22 @@ RayInstance instanceOf(uint64_t structure, uint flags)
 	instance.offset_and_flags = flags << 24;
 	instance.structure = structure;
 	return instance;
+}
+
+void placeShared(uint index)
+{
+	RayInstance placed_instance = instanceOf(0ul, 0u);
+	if (args.shared_instances.at[index] != NOT_SHARED)
+	{
+		InstanceRecord scene_instance = args.scene_instances.at[index];
+		Placement placement = placementOf(scene_instance, frame_view);
+		placed_instance.row0 = vec4(placement.row0, placement.translation.x);
+		placed_instance.row1 = vec4(placement.row1, placement.translation.y);
+		placed_instance.row2 = vec4(placement.row2, placement.translation.z);
+		placed_instance.index_and_mask = 0xffu << 24 | index;
+		placed_instance.structure = packUint2x32(args.mesh_structures.at[scene_instance.mesh]);
+	}
+	args.instances.at[1u + index] = placed_instance;
 }
 
 void placeOfScene(ClusterWork work, uint index)
@@ -47,7 +68,12 @@ void main()
 	if (!BUILDS_CLUSTERS)
 	{
 		if (gl_GlobalInvocationID.x == 0u)
+		{
 			args.instances.at[0] = instanceOf(args.geometry, 0u);
+			args.instances.at[0].index_and_mask |= OWN_STRUCTURE;
+		}
+		for (uint i = gl_GlobalInvocationID.x; SHARES_STRUCTURES && i < args.scene_instance_count; i += gl_NumWorkGroups.x * gl_WorkGroupSize.x)
+			placeShared(i);
 		return;
 	}
 	if (gl_LocalInvocationIndex == 0u)

@@ -2,6 +2,7 @@
 #ifndef TESSERA_RAYTRACING_PLACE_INSTANCES_H
 #define TESSERA_RAYTRACING_PLACE_INSTANCES_H
 #include "raytracing/cluster_lists.h"
+#include "shared/ray_sharing.h"
 #include "shared/view.h"
 
 SHARED_BEGIN
@@ -25,10 +26,14 @@ struct PlaceInstancesArgs
 {
 	GPU_PTR(RayInstance) instances;
 	uint64_t geometry;                        // address of the structure of the frame's micro-triangles; 0: there are clusters
-	GPU_PTR(InstanceRecord) scene_instances;  // this and the next: 0 without clusters
-	GPU_PTR(ClusterWork) work;
+	GPU_PTR(InstanceRecord) scene_instances;  // 0 without clusters and shared structures
+	GPU_PTR(ClusterWork) work;                // 0 without clusters
+	GPU_PTR(uint) shared_instances;           // this and the next: 0 without shared structures
+	GPU_PTR(uvec2) mesh_structures;           // per mesh, the address of its structure, lower word first
+	uint scene_instance_count;
+	uint unused;
 };
-SHARED_LAYOUT(PlaceInstancesArgs, 32, work, 24)
+SHARED_LAYOUT(PlaceInstancesArgs, 56, unused, 52)
 
 SHARED_END
 

@@ -10,4 +10,12 @@
 layout(push_constant, scalar) uniform Args { TraceVisibilityArgs args; };
 layout(location = 0) rayPayloadInEXT TracedHit hit;
 
-void main() { hit = TracedHit(gl_HitTEXT, args.payloads.at[args.first_payload + gl_PrimitiveID]); }
+#include "lib/shared_hit.glsl"
+
+void main()
+{
+	if (isSharedHit())
+		hit = TracedHit(gl_HitTEXT, sharedPayload());
+	else
+		hit = TracedHit(gl_HitTEXT, args.payloads.at[args.first_payload + gl_PrimitiveID]);
+}

@@ -53,12 +53,14 @@ struct FrameCounts
 	uint revealed_clusters;
 	uint dump_vertices;  // that dump_micro wants to write
 	uint dump_triangles;
-	uint left_items;                     // that raster_small left to raster_micro
-	uint hidden_instances;               // whose segments have grown in this frame because something hides them
-	uint shown_instances;                // of them those that may be seen all the same: the frame is drawn again
+	uint left_items;        // that raster_small left to raster_micro
+	uint hidden_instances;  // whose segments have grown in this frame because something hides them
+	uint shown_instances;   // of them those that may be seen all the same: the frame is drawn again
+	uint shared_instances;  // whose rays go through structures that instances share, and all clusters of their meshes
+	uint shared_clusters;
 	uint split_count[MAX_SPLIT_LEVELS];  // split triangles appended per level; level 0 by cluster_classify
 };
-SHARED_LAYOUT(FrameCounts, 208, split_count, 80)
+SHARED_LAYOUT(FrameCounts, 216, split_count, 88)
 
 // An entry of cluster_groups: up to CLUSTER_GROUP_SIZE clusters of one instance.
 #define CLUSTER_GROUP_SIZE 64u
@@ -83,6 +85,8 @@ SHARED_LAYOUT(FullCluster, 12, phase, 8)
 #define PHASE_FIRST 0u
 #define PHASE_SECOND 1u
 #define PHASE_HIDDEN 2u  // hidden by the frame before: neither, unless it is found to be seen
+// Beside rays, with which nothing is looked for that is hidden: rays meet it in a structure that instances share, so none of it is expanded.
+#define PHASE_SHARED 3u
 
 // A batch: consecutive places of part_places that one workgroup draws.
 struct Batch

@@ -64,17 +64,23 @@ void decideTriangles(ClusterRecord cluster, Placement placement, PlacedReach rea
 	}
 }
 
-// Bounds are there when something is culled.
+bool isShared(ClusterRef ref) { return SHARES_STRUCTURES && args.shared_instances.at[ref.instance] != NOT_SHARED; }
+
+// Bounds are there when something is culled. Instances that share a structure have been found to be full as a whole.
 bool isFullByBounds(ClusterRef ref, Placement placement, View view)
 {
+	if (isShared(ref))
+		return true;
 	return HAS_CULLING && !HAS_DETAIL && !HAS_DISPLACED_EDGES && allFactorsAreOne(args.cluster_bounds.at[ref.cluster], placement, view);
 }
 
 uint fullPhase(uint index)
 {
+	ClusterRef ref = args.visible_clusters.at[index];
+	if (isShared(ref))
+		return PHASE_SHARED;
 	if (!HAS_OCCLUSION)
 		return PHASE_FIRST;
-	ClusterRef ref = args.visible_clusters.at[index];
 	return wasHidden(args.cluster_bounds.at[ref.cluster], args.instances.at[ref.instance]) ? PHASE_HIDDEN : PHASE_FIRST;
 }
 

@@ -5,6 +5,7 @@
 #include "shared/edge_factor.h"
 #include "shared/geometry.h"
 #include "shared/lists.h"
+#include "shared/ray_sharing.h"
 
 SHARED_BEGIN
 
@@ -21,10 +22,11 @@ struct ClusterClassifyArgs
 	GPU_PTR(FullCluster) full_clusters;
 	GPU_PTR(DomainTriangle) split_triangles;  // 0 when no split can occur
 	GPU_PTR(DomainTriangle) part_triangles;
+	GPU_PTR(uint) shared_instances;  // with structures that instances share
 	FactorRule rule;
 	uint cull_frustum;
 };
-SHARED_LAYOUT(ClusterClassifyArgs, 104, cull_frustum, 96)
+SHARED_LAYOUT(ClusterClassifyArgs, 112, cull_frustum, 104)
 
 SHARED_END
 

@@ -40,7 +40,7 @@ shared uint chosen;
 
 uint listLimit(uint list)
 {
-	return (args.deciding_lists >> list & 1u) != 0u ? args.heads.at[list].capacity : MOST_PACKED_ENTRIES;
+	return (searchDecidingLists(args.modes) >> list & 1u) != 0u ? args.heads.at[list].capacity : MOST_PACKED_ENTRIES;
 }
 
 void clearSums()
@@ -71,7 +71,7 @@ void flushSums()
 
 void takePlaces()
 {
-	if (args.lists != 0u)
+	if (searchLists(args.modes))
 	{
 		if (part_count > 0u)
 			first_part = reserveEntries(args.heads, LIST_PART_TRIANGLES, part_count);
@@ -95,7 +95,7 @@ void loadStep(uint step)
 	barrier();
 	if (gl_LocalInvocationIndex == 0u)
 	{
-		stop = args.lists != 0u ? 0u : atomicOr(args.steps.at[step].abandoned, 0u);
+		stop = searchLists(args.modes) ? 0u : atomicOr(args.steps.at[step].abandoned, 0u);
 		clearSums();
 	}
 	barrier();
@@ -108,7 +108,7 @@ bool isOverfull(uint list) { return args.heads.at[list].wanted > listLimit(list)
 // A packing of a fixed size is filled later: unless it holds as many of the largest patterns, only counting can say whether it fits.
 bool packingMayOverflow(uint list, uint most_per_part)
 {
-	bool decides = (args.deciding_lists >> list & 1u) != 0u;
+	bool decides = (searchDecidingLists(args.modes) >> list & 1u) != 0u;
 	uint most = args.heads.at[list].wanted + args.heads.at[LIST_PART_TRIANGLES].wanted * most_per_part;
 	return decides && most > args.heads.at[list].capacity;
 }
@@ -121,7 +121,7 @@ uint firstCandidate()
 		return NO_INDEX;
 	if (isOverfull(LIST_SPLIT_TRIANGLES) || isOverfull(LIST_PART_TRIANGLES) || isOverfull(LIST_MICRO_VERTICES) || isOverfull(LIST_EXPANDED_TRIANGLES))
 		return 1u;
-	return packingMayOverflow(LIST_MICRO_VERTICES, BATCH_MAX_VERTICES) || packingMayOverflow(LIST_EXPANDED_TRIANGLES, BATCH_MAX_TRIANGLES) || args.counts.at[0].split_count[args.split_levels] != 0u ? 0u : NO_INDEX;
+	return packingMayOverflow(LIST_MICRO_VERTICES, BATCH_MAX_VERTICES) || packingMayOverflow(LIST_EXPANDED_TRIANGLES, BATCH_MAX_TRIANGLES) || args.counts.at[0].split_count[searchLevels(args.modes)] != 0u ? 0u : NO_INDEX;
 }
 
 // How the work is dealt out: unit = (block * clusters + cluster) * slices + slice.
@@ -147,15 +147,18 @@ void takeFull()
 {
 	if (gl_LocalInvocationIndex != 0u || slice != 0u)
 		return;
-	if (args.lists != 0u)
+	bool is_shared = SHARES_STRUCTURES && args.shared_instances.at[args.visible_clusters.at[visible_index].instance] != NOT_SHARED;
+	if (searchLists(args.modes))
 	{
 		uint slot = reserveEntries(args.heads, LIST_FULL_CLUSTERS, 1u);
-		listFullCluster(args.heads, args.counts, args.full_clusters, slot, visible_index, cluster, PHASE_FIRST);
+		listFullCluster(args.heads, args.counts, args.full_clusters, slot, visible_index, cluster, is_shared ? PHASE_SHARED : PHASE_FIRST);
 		return;
 	}
 	atomicAdd(args.steps.at[step_index].full_clusters, 1u);
-	atomicAdd(args.steps.at[step_index].full_vertices, clusterVertices(cluster));
-	atomicAdd(args.steps.at[step_index].full_micro_triangles, clusterTriangles(cluster));
+	if (!(is_shared && READS_BUFFER))
+		atomicAdd(args.steps.at[step_index].full_vertices, clusterVertices(cluster));
+	if (!is_shared)
+		atomicAdd(args.steps.at[step_index].full_micro_triangles, clusterTriangles(cluster));
 }
 
 // One unit: a cluster at the candidates of a block. Once full, it is full at every coarser one: chooseStep knows.
@@ -170,13 +173,13 @@ void takeUnit(uint unit, uint first, uint end, Dealing dealing)
 		loadStep(step);
 		if (stop != 0u)
 			continue;
-		if (!walkCluster(args.lists != 0u))
+		if (!walkCluster(searchLists(args.modes)))
 		{
 			takeFull();
 			return;
 		}
 		barrier();
-		if (gl_LocalInvocationIndex == 0u && args.lists == 0u)
+		if (gl_LocalInvocationIndex == 0u && !searchLists(args.modes))
 			flushSums();
 	}
 }
@@ -228,7 +231,7 @@ void grant(uint step)
 	args.view.at[0].sample_over_focal_squared = args.steps.at[step].sample_over_focal_squared;
 	args.counts.at[0].rate_step = step;
 	args.counts.at[0].listed_again = 1u;
-	args.counts.at[0].levels_missing = args.counts.at[0].split_count[args.split_levels];
+	args.counts.at[0].levels_missing = args.counts.at[0].split_count[searchLevels(args.modes)];
 	args.counts.at[0].full_cluster_triangles = 0u;
 	args.counts.at[0].hidden_clusters = 0u;
 	for (uint level = 0u; level < MAX_SPLIT_LEVELS; ++level)
@@ -252,7 +255,7 @@ void chooseStep(uint first, uint blocks)
 	if (gl_LocalInvocationIndex != 0u || chosen == NO_INDEX)
 		return;
 	// Step 0 is listed already, unless levels were missing.
-	if (chosen > 0u || args.counts.at[0].split_count[args.split_levels] != 0u)
+	if (chosen > 0u || args.counts.at[0].split_count[searchLevels(args.modes)] != 0u)
 		grant(chosen);
 }
 
@@ -270,7 +273,7 @@ bool endsLast()
 
 void main()
 {
-	bool lists = args.lists != 0u;
+	bool lists = searchLists(args.modes);
 	uint first = lists ? args.counts.at[0].rate_step : firstCandidate();
 	uint end = lists ? first + 1u : args.step_count;
 	if (first >= end || (lists && args.counts.at[0].listed_again == 0u))

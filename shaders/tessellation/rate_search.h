@@ -6,6 +6,7 @@
 #include "shared/geometry.h"
 #include "shared/lists.h"
 #include "shared/pattern.h"
+#include "shared/ray_sharing.h"
 
 SHARED_BEGIN
 
@@ -42,14 +43,33 @@ struct RateSearchArgs
 	GPU_PTR(DomainTriangle) split_triangles;  // 0 when no split can occur
 	GPU_PTR(DomainTriangle) part_triangles;
 	TableView table;
-	GPU_PTR(RateStep) steps;  // finest first; step 0 is the rate that the stages before used
-	GPU_PTR(View) view;       // the uniform buffer that later stages read
+	GPU_PTR(RateStep) steps;         // finest first; step 0 is the rate that the stages before used
+	GPU_PTR(View) view;              // the uniform buffer that later stages read
+	GPU_PTR(uint) shared_instances;  // with structures that instances share
 	uint step_count;
-	uint lists;           // 0: count the candidates and choose one; 1: list again at the chosen one
-	uint deciding_lists;  // bit per list: its capacity is fixed, so that it limits the rate
-	uint split_levels;    // levels that triangle_split took apart
+	uint modes;  // packSearch
 };
-SHARED_LAYOUT(RateSearchArgs, 128, split_levels, 124)
+SHARED_LAYOUT(RateSearchArgs, 128, modes, 124)
+
+//   lists           0: count the candidates and choose one; 1: list again at the chosen one
+//   deciding_lists  bit per list: its capacity is fixed, so that it limits the rate
+//   split_levels    levels that triangle_split took apart
+SHARED_FN uint packSearch(uint lists, uint deciding_lists, uint split_levels)
+{
+	return lists | (split_levels << 8) | (deciding_lists << 16);
+}
+SHARED_FN bool searchLists(uint modes)
+{
+	return (modes & 1u) != 0u;
+}
+SHARED_FN uint searchLevels(uint modes)
+{
+	return (modes >> 8) & 0xffu;
+}
+SHARED_FN uint searchDecidingLists(uint modes)
+{
+	return modes >> 16;
+}
 
 SHARED_END
 

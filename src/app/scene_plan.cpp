@@ -53,6 +53,9 @@ Result<ScenePlan> planScene(const BuiltScene& scene, const Camera& camera, const
 	const FactorBound bound = boundFactors(camera, scene, request, table.max_edge_segments, max_split);
 	planned.input.view.factors_above_one = bound.above_one;
 	planned.input.view.split_levels = bound.split_levels;
+	TRY_ASSIGN(const View view, makeView(camera, scene, request));
+	planned.input.view.shares_structures = planned.input.view.makes_structures =
+		std::ranges::any_of(meshesThatShare(scene, view, planned.input), [](uint8_t shares) { return shares != 0; });
 	TRY_ASSIGN(planned.input.forced, forcedBy(options.forced, framePasses(), resourceDescs(), kWantedOutputs, planned.input));
 	TRY_ASSIGN(planned.plan, planFrame(framePasses(), resourceDescs(), kWantedOutputs, planned.input));
 	return planned;

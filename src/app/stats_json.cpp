@@ -103,7 +103,8 @@ ordered_json trianglesJson(const RayStats& rays)
 	return {
 		{ "triangles", rays.triangles.wanted },         { "reserved_triangles", rays.triangles.capacity },
 		{ "geometry_bytes", rays.geometry_bytes },      { "geometry_used_bytes", rays.geometry_used_bytes },
-		{ "build", rays.refitted ? "refit" : "built" },
+		{ "build", rays.refitted ? "refit" : "built" }, { "shared_structures", rays.shared_structures },
+		{ "shared_instances", rays.shared_instances },  { "shared_bytes", rays.shared_bytes },
 	};
 }
 

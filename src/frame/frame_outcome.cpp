@@ -47,7 +47,10 @@ void fillLists(const FrameResources& resources, FrameResult& result)
 	if (resources.clusters().exists())
 		resources.clusters().addStats(result.rays, resources.head(LIST_MICRO_VERTICES).wanted);
 	else if (result.rays.traced)
+	{
+		resources.sharedStructures().addStats(result.rays, resources.counts().shared_instances);
 		result.lists.push_back(result.rays.triangles);
+	}
 	result.lists.insert(result.lists.end(), result.rays.clusters.lists.begin(), result.rays.clusters.lists.end());
 }
 

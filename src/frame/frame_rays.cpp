@@ -1,17 +1,31 @@
 // What FrameResources holds for rays: made before a frame, judged after it.
 #include "frame/frame_resources.h"
 #include "plan/conditions.h"
+#include "raytracing/place_instances.h"
 
 namespace tessera
 {
 
+uint64_t FrameResources::rayInstanceBytes(const PlanInput& input) const
+{
+	const uint64_t own = kClusters.holds(input) ? 0 : 1;
+	const uint64_t of_scene = kClusters.holds(input) || kSharesStructures.holds(input) ? scene_.instances.size() : 0;
+	return (own + of_scene) * sizeof(RayInstance);
+}
+
 Status FrameResources::prepareRays(const FramePlan& plan, const PlanInput& input)
 {
+	TRY(shared_.prepare(plan, input, *commands_));
 	if (!plan.keeps("ray_scene"))
 	{
 		rays_.drop();
 		clusters_.drop();
 		return {};
+	}
+	if (buffer("ray_instances").bytes() < rayInstanceBytes(input))
+	{
+		buffers_.erase("ray_instances");
+		TRY(allocate("ray_instances", rayInstanceBytes(input)));
 	}
 	RayInputs inputs;
 	inputs.instances = address("ray_instances");
@@ -26,12 +40,13 @@ Status FrameResources::prepareRays(const FramePlan& plan, const PlanInput& input
 	inputs.expanded_triangles = address("expanded_triangles");
 	inputs.vertex_capacity = capacities_[LIST_MICRO_VERTICES];
 	inputs.triangle_capacity = capacities_[LIST_EXPANDED_TRIANGLES];
-	inputs.instance_count = 1;
+	inputs.instance_count = static_cast<uint32_t>(rayInstanceBytes(input) / sizeof(RayInstance));
 	return rays_.prepare(inputs, input, *bindless_);
 }
 
 Result<bool> FrameResources::raysAreTooSmall(const PlanInput& input)
 {
+	TRY(shared_.endFrame());
 	const bool fits = counts().overflow == 0;
 	if (!rays_.exists())
 		return false;

@@ -61,7 +61,7 @@ Status FrameResources::prepare(const FramePlan& plan, const PlanInput& input)
 			continue;
 		TRY(make(resource.name, input));
 		lists_changed |= findList(resource.name) != nullptr;
-		tables_changed |= resource.kind == "attribute" || resource.kind == "buffer";
+		tables_changed |= has(resource.name) && (resource.kind == "attribute" || resource.kind == "buffer");
 	}
 	// Tables of addresses: made again when something may have moved.
 	if (!has("surface") || lists_changed || tables_changed)
@@ -301,7 +301,8 @@ MemoryStats FrameResources::memory() const
 		else if (name == "picture" || name == "visibility_buffer" || name == "kept_visibility" || name == "depth_pyramid" ||
 				 name == "sun_visibility" || name == "ambient_visibility")
 			memory.images += held.bytes();
-		else if (name == "ray_instances" || name == "hidden_instances" || name == "hidden_instances_next")
+		else if (name == "ray_instances" || name == "hidden_instances" || name == "hidden_instances_next" || name == "shared_instances" ||
+				 name == "shared_clusters")
 			memory.rays += held.bytes();
 		else
 			memory.geometry += held.bytes();
@@ -312,7 +313,7 @@ MemoryStats FrameResources::memory() const
 		memory.textures += texture.bytes();
 	for (const Buffer& texels : height_texels_)
 		memory.textures += texels.bytes();
-	memory.rays += rays_.stats(0).total() + (clusters_.exists() ? clusters_.bytes() : 0);
+	memory.rays += rays_.stats(0).total() + (clusters_.exists() ? clusters_.bytes() : 0) + shared_.bytes();
 	return memory;
 }
 

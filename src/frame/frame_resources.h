@@ -5,6 +5,7 @@
 #include "frame/rate_controller.h"
 #include "frame/ray_clusters.h"
 #include "frame/ray_structures.h"
+#include "frame/shared_structures.h"
 #include "frame/stats.h"
 #include "gpu/commands.h"
 #include "gpu/pipeline.h"
@@ -74,6 +75,8 @@ public:
 	MemoryStats memory() const;
 	const RayStructures& rays() const { return rays_; }
 	const RayClusters& clusters() const { return clusters_; }
+	const SharedStructures& sharedStructures() const { return shared_; }
+	SharedStructures& sharedStructures() { return shared_; }
 
 	// Heads and counts of the last submitted frame; valid after readCounts was recorded and waited for.
 	void recordCountsReadback(VkCommandBuffer commands) const;
@@ -84,13 +87,14 @@ public:
 
 private:
 	FrameResources(Device& device, const BuiltScene& scene, const TessellationTable& table)
-		: device_(device), scene_(scene), table_(table), rays_(device), clusters_(device)
+		: device_(device), scene_(scene), table_(table), rays_(device), clusters_(device), shared_(device, scene)
 	{}
 	// Which of the two pyramids is this frame's, and what the frame before it saw.
 	void writeHistory(const View& view, bool makes_pyramid);
 	void writeHidden();
 	void dropUnkept(const FramePlan& plan);
 	Status prepareRays(const FramePlan& plan, const PlanInput& input);
+	uint64_t rayInstanceBytes(const PlanInput& input) const;
 	// Fewer micro-vertices from now on, so that the rate is coarsened until clusters fit into their memory.
 	Status limitVertices(double overload);
 	Status make(std::string_view name, const PlanInput& input);
@@ -118,6 +122,7 @@ private:
 	std::vector<Buffer> height_texels_;
 	RayStructures rays_;
 	RayClusters clusters_;
+	SharedStructures shared_;
 	Buffer readback_;
 	DumpLayout dump_ = kFirstDump;
 	std::array<uint32_t, LIST_COUNT> capacities_ = {};

@@ -347,11 +347,15 @@ Status FrameResources::make(std::string_view name, const PlanInput& input)
 	if (name == "sun_visibility" || name == "ambient_visibility")
 		return allocate(name, uint64_t(input.options.width_px) * input.options.height_px * sizeof(float));
 	if (name == "ray_instances")
-		return allocate(name, sizeof(RayInstance) * (kClusters.holds(input) ? scene_.instances.size() : 1));
-	constexpr std::string_view kOfRayClusters[] = { "cluster_templates", "cluster_counts", "instance_clusters", "ray_inputs",
-													"ray_references",    "ray_payloads",   "ray_clusters" };
-	CHECK(std::ranges::find(kOfRayClusters, name) != std::end(kOfRayClusters) || name == "ray_geometry" || name == "ray_scene" ||
-			  name == "ray_scratch" || name == "heads" || name == "surface" || name == "shading" || name == "height_texels",
+		return allocate(name, rayInstanceBytes(input));
+	if (name == "shared_instances")
+		return allocate(name, scene_.instances.size() * sizeof(uint32_t));
+	if (name == "shared_clusters")
+		return allocate(name, input.sizes.instanced_clusters * sizeof(uint32_t));
+	constexpr std::string_view kOfRays[] = { "cluster_templates", "cluster_counts", "instance_clusters", "ray_inputs",  "ray_references",
+											 "ray_payloads",      "ray_clusters",   "mesh_addresses",    "mesh_inputs", "mesh_structures" };
+	CHECK(std::ranges::find(kOfRays, name) != std::end(kOfRays) || name == "ray_geometry" || name == "ray_scene" || name == "ray_scratch" ||
+			  name == "heads" || name == "surface" || name == "shading" || name == "height_texels",
 		  "nobody makes resource '{}'", name);
 	return {};
 }

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "frame/frame_resources.h"
+#include "plan/conditions.h"
 #include "scene/factor_rule.h"
 
 #include <algorithm>
@@ -46,6 +47,16 @@ uint64_t PassContext::tracedGeometry() const
 const RayClusters& PassContext::clusters() const
 {
 	return resources_.clusters();
+}
+
+const SharedStructures& PassContext::sharedStructures() const
+{
+	return resources_.sharedStructures();
+}
+
+RaySharing PassContext::raySharing() const
+{
+	return tessera::raySharing(resources_.view(), kTessellates.holds(input_));
 }
 
 void PassContext::build(std::string_view structure) const

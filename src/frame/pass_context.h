@@ -4,6 +4,7 @@
 #include "gpu/pipeline.h"
 #include "plan/plan.h"
 #include "shared/edge_factor.h"
+#include "shared/ray_sharing.h"
 
 #include <type_traits>
 
@@ -12,6 +13,7 @@ namespace tessera
 
 class FrameResources;
 class RayClusters;
+class SharedStructures;
 
 class PassContext
 {
@@ -33,6 +35,8 @@ public:
 	uint32_t tracedTriangles() const;  // that the frame's structure is built of, inactive ones included
 	uint64_t tracedGeometry() const;   // device address of that structure
 	const RayClusters& clusters() const;
+	const SharedStructures& sharedStructures() const;
+	RaySharing raySharing() const;  // which instances may share
 	VkCommandBuffer commands() const { return commands_; }
 	uint32_t decidingLists() const;  // bit per list whose capacity limits the rate
 

@@ -108,6 +108,7 @@ void RayStructures::drop()
 void RayStructures::reserve(const PlanInput& input)
 {
 	const uint32_t wanted = std::exchange(most_wanted_, 0);
+	const bool was_drawn = std::exchange(was_drawn_, false);
 	// Then the frame has every triangle of the scene.
 	if (kKeepsPlaces.holds(input))
 	{
@@ -118,13 +119,15 @@ void RayStructures::reserve(const PlanInput& input)
 		reserved_ = roundedUp(std::min<uint64_t>(input.scene.instanced_triangles, kFirstTriangles));
 	// Nearly full: a moving camera seldom draws a frame twice. Half empty: what is not there costs a little, too.
 	const bool is_small = uint64_t(wanted) * 16 > uint64_t(reserved_) * 15, is_large = wanted < reserved_ / 2;
-	if (wanted > 0 && (is_small || is_large))
+	// With shared structures a frame may have no triangles of its own.
+	if ((wanted > 0 || (was_drawn && kSharesStructures.holds(input))) && (is_small || is_large))
 		reserved_ = static_cast<uint32_t>(std::min<uint64_t>(roundedUp(uint64_t(wanted) * 9 / 8), device_.limits.most_structure_triangles));
 }
 
 bool RayStructures::isTooSmallFor(uint32_t wanted, bool fits)
 {
 	most_wanted_ = std::max(most_wanted_, wanted);
+	was_drawn_ = true;
 	peak_ = std::max(peak_, wanted);
 	if (wanted > reserved_)
 		return true;

@@ -61,6 +61,7 @@ private:
 	Buffer scratch_;
 	uint32_t reserved_ = 0, peak_ = 0, peak_used_ = 0;
 	uint32_t most_wanted_ = 0;  // of all rounds since the last preparation
+	bool was_drawn_ = false;    // a round, since then
 	TriangleInput triangles_;   // of the last preparation
 	bool keeps_places_ = false;
 	bool can_refit_ = false;  // the structure holds these very triangles, each in its place

@@ -198,6 +198,7 @@ private:
 		{
 			TRY_ASSIGN(draw_view_, drawnFrom(view_, camera, *drawn_from_, scene_, request));
 		}
+		resources_->sharedStructures().look(view_, input_);
 		steps_.clear();
 		if (kTessellates.holds(input_))
 			steps_ = rateSteps(camera, view_, request, attempt.coarsening, bound.largest_factor, table_size, max_split);

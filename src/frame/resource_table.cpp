@@ -159,7 +159,24 @@ constexpr ResourceDesc kResources[] = {
 	{ "indexed_draw", "buffer", fixedBytes<20> },
 	{ "ray_instances", "list",
 	  [](const PlanInput& input) -> uint64_t {
-		  return (kClusters.holds(input) ? input.sizes.instances : 1) * sizeof(RayInstance);
+		  return (kClusters.holds(input)           ? input.sizes.instances
+				  : kSharesStructures.holds(input) ? 1 + input.sizes.instances
+												   : 1) *
+				 sizeof(RayInstance);
+	  } },
+	{ "shared_instances", "list", perInstance<sizeof(uint32_t)> },
+	{ "shared_clusters", "list",
+	  [](const PlanInput& input) -> uint64_t {
+		  return input.sizes.instanced_clusters * sizeof(uint32_t);
+	  } },
+	{ "mesh_addresses", "buffer", perMesh<sizeof(uint64_t)> },
+	{ "mesh_inputs", "list",
+	  [](const PlanInput& input) -> uint64_t {
+		  return input.sizes.vertices * sizeof(vec3) + input.sizes.triangles * 3 * sizeof(uint32_t);
+	  } },
+	{ "mesh_structures", "buffer",
+	  [](const PlanInput& input) -> uint64_t {
+		  return static_cast<uint64_t>(double(input.sizes.triangles) * input.device.structure_triangle_bytes);
 	  } },
 	{ "window_vertices", "list",
 	  [](const PlanInput& input) -> uint64_t {

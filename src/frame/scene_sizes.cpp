@@ -50,6 +50,8 @@ DeviceTraits traitsOf(const Device& device)
 	DeviceTraits traits = { device.gates.mesh_shader,           device.gates.buffer_atomics_64,  device.gates.fragment_primitive_id, device.is_cpu,
 							device.limits.most_footprint_bytes, device.limits.most_small_rate_px };
 	traits.rays = device.gates.rays();
+	traits.most_structure_triangles = device.limits.most_structure_triangles;
+	traits.most_structure_instances = device.limits.most_structure_instances;
 	traits.clusters = device.gates.cluster_acceleration_structure;
 	traits.why_no_clusters = device.gates.why_no_clusters;
 	if (!traits.rays)

@@ -49,8 +49,10 @@ struct RayStats
 	uint64_t geometry_bytes = 0;       // reserved
 	uint64_t geometry_used_bytes = 0;  // what the driver asks for as many as the frame has
 	uint64_t scene_bytes = 0, scratch_bytes = 0;
+	// Structures of meshes that instances share; instances of this frame that do; memory of all of it.
+	uint64_t shared_structures = 0, shared_instances = 0, shared_bytes = 0;
 	RayClusterStats clusters;
-	uint64_t total() const { return geometry_bytes + scene_bytes + scratch_bytes + clusters.total(); }
+	uint64_t total() const { return geometry_bytes + scene_bytes + scratch_bytes + shared_bytes + clusters.total(); }
 };
 
 struct FrameCountsRead

@@ -12,7 +12,8 @@ VkBuildAccelerationStructureFlagsKHR flagsOf(const BuildFlags& flags)
 {
 	return (flags.fast_trace ? VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR
 							 : VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_BUILD_BIT_KHR) |
-		   (flags.can_update ? VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_UPDATE_BIT_KHR : 0);
+		   (flags.can_update ? VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_UPDATE_BIT_KHR : 0) |
+		   (flags.can_compact ? VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR : 0);
 }
 
 }  // namespace
@@ -71,6 +72,15 @@ void StructureBuild::record(const Device& device, VkCommandBuffer commands, VkAc
 	const VkAccelerationStructureBuildRangeInfoKHR range = { count_, 0, 0, 0 };
 	const VkAccelerationStructureBuildRangeInfoKHR* ranges = &range;
 	device.functions.build_acceleration_structures(commands, 1, &build, &ranges);
+}
+
+void recordCompaction(const Device& device, VkCommandBuffer commands, VkAccelerationStructureKHR from, VkAccelerationStructureKHR to)
+{
+	VkCopyAccelerationStructureInfoKHR copy = { VK_STRUCTURE_TYPE_COPY_ACCELERATION_STRUCTURE_INFO_KHR };
+	copy.src = from;
+	copy.dst = to;
+	copy.mode = VK_COPY_ACCELERATION_STRUCTURE_MODE_COMPACT_KHR;
+	device.functions.copy_acceleration_structure(commands, &copy);
 }
 
 uint64_t scratchBytes(const Device& device, uint64_t bytes)

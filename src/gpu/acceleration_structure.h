@@ -31,6 +31,7 @@ struct BuildFlags
 {
 	bool fast_trace = false;  // else fast build
 	bool can_update = false;
+	bool can_compact = false;
 };
 
 // What one build is made of.
@@ -62,6 +63,9 @@ private:
 	VkBuildAccelerationStructureFlagsKHR flags_ = 0;
 	uint32_t count_ = 0;
 };
+
+// Records a copy into a structure of the compacted size. Accesses before and after it are ordered by the caller.
+void recordCompaction(const Device& device, VkCommandBuffer commands, VkAccelerationStructureKHR from, VkAccelerationStructureKHR to);
 
 // Bytes of a buffer for scratch memory of this size, and the address within it that a build may use.
 uint64_t scratchBytes(const Device& device, uint64_t bytes);

@@ -222,6 +222,8 @@ struct DeviceBuilder
 			load(device, functions.acceleration_structure_sizes, "vkGetAccelerationStructureBuildSizesKHR");
 			load(device, functions.acceleration_structure_address, "vkGetAccelerationStructureDeviceAddressKHR");
 			load(device, functions.build_acceleration_structures, "vkCmdBuildAccelerationStructuresKHR");
+			load(device, functions.copy_acceleration_structure, "vkCmdCopyAccelerationStructureKHR");
+			load(device, functions.write_structure_properties, "vkCmdWriteAccelerationStructuresPropertiesKHR");
 			load(device, functions.create_ray_tracing_pipelines, "vkCreateRayTracingPipelinesKHR");
 			load(device, functions.ray_tracing_group_handles, "vkGetRayTracingShaderGroupHandlesKHR");
 			load(device, functions.trace_rays, "vkCmdTraceRaysKHR");

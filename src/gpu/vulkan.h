@@ -23,6 +23,8 @@ struct ExtensionFunctions
 	PFN_vkGetAccelerationStructureBuildSizesKHR acceleration_structure_sizes = nullptr;
 	PFN_vkGetAccelerationStructureDeviceAddressKHR acceleration_structure_address = nullptr;
 	PFN_vkCmdBuildAccelerationStructuresKHR build_acceleration_structures = nullptr;
+	PFN_vkCmdCopyAccelerationStructureKHR copy_acceleration_structure = nullptr;
+	PFN_vkCmdWriteAccelerationStructuresPropertiesKHR write_structure_properties = nullptr;
 	PFN_vkCreateRayTracingPipelinesKHR create_ray_tracing_pipelines = nullptr;
 	PFN_vkGetRayTracingShaderGroupHandlesKHR ray_tracing_group_handles = nullptr;
 	PFN_vkCmdTraceRaysKHR trace_rays = nullptr;

@@ -19,6 +19,8 @@ extern const PassDesc kEvaluateVertices;
 extern const PassDesc kRasterSmall;
 extern const PassDesc kRasterMicro;
 extern const PassDesc kBuildGeometry;
+extern const PassDesc kExpandMeshes;
+extern const PassDesc kBuildMeshes;
 extern const PassDesc kClearClusters;
 extern const PassDesc kListClusters;
 extern const PassDesc kListStructures;

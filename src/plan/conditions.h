@@ -2,6 +2,7 @@
 #pragma once
 #include "plan/pass.h"
 #include "shared/geometry.h"
+#include "shared/ray_sharing.h"
 
 namespace tessera
 {
@@ -264,6 +265,30 @@ inline constexpr Condition kRtMixedSides = { [](const PlanInput& input) { return
 											 "all materials show the same sides", nullptr, kTracesNothing };
 inline constexpr Condition kRtMixedSidesOfParts = { [](const PlanInput& input) { return kRtMixedSides.holds(input) && kTessellates.holds(input); },
 													"all materials show the same sides, or nothing is tessellated", nullptr, kTracesNothing };
+// Structures of meshes that instances share, whatever is seen from where. An indexed draw expands everything anyway.
+inline bool mayShareStructures(const PlanInput& input)
+{
+	return tracesRays(input) && input.device.rays && !buildsClusters(input) && input.options.ray_sharing && !usesIndexed(input) &&
+		   input.sizes.instances < input.device.most_structure_instances && input.sizes.instances < OWN_STRUCTURE;
+}
+inline constexpr Condition kSharesStructures = {
+	[](const PlanInput& input) {
+		return mayShareStructures(input) && input.view.shares_structures && input.view.rounds == 1 && !input.view.is_seen_elsewhere;
+	},
+	"no rays are traced, or through clusters, --ray-sharing is off, vertices are drawn by indices, the frame is drawn in rounds, or every instance "
+	"is tessellated, displaced by distance or too near",
+	nullptr, kTracesNothing
+};
+inline constexpr Condition kMakesStructures = { [](const PlanInput& input) { return kSharesStructures.holds(input) && input.view.makes_structures; },
+												"every structure that instances share is there already, or none do", nullptr, kTracesNothing };
+inline constexpr Condition kRtShares = { [](const PlanInput& input) { return kRt.holds(input) && kSharesStructures.holds(input); },
+										 "no primary ray goes through structures that instances share", nullptr, kTracesNothing };
+inline constexpr Condition kRtFindsClusters = { [](const PlanInput& input) { return kRtMixedSides.holds(input) || kRtShares.holds(input); },
+												"no primary ray asks for its cluster's material or place", nullptr, kTracesNothing };
+inline constexpr Condition kBoundsMeshes = { [](const PlanInput& input) { return kFrustumCulls.holds(input) || kSharesStructures.holds(input); },
+											 "nothing is culled by the frustum, and no instances share structures" };
+inline constexpr Condition kPlacesInstances = { [](const PlanInput& input) { return kClusters.holds(input) || kSharesStructures.holds(input); },
+												"one structure holds all that rays meet", nullptr, kTracesNothing };
 // Micro-vertices and indices in memory: for those who do not evaluate their own.
 inline constexpr Condition kKeepsVertices = { [](const PlanInput& input) { return kDraws.holds(input) || kRays.holds(input); },
 											  "raster_micro evaluates its own vertices, and nothing else needs any", nullptr, kIsAnAlternative };
@@ -273,10 +298,10 @@ inline constexpr Condition kExpands = { [](const PlanInput& input) { return uses
 // refitted. (Mesh shaders find clusters at the places that they took when they were listed.)
 inline constexpr Condition kKeepsPlaces = { [](const PlanInput& input) {
 											   return kRayTriangles.holds(input) && !kTessellates.holds(input) && !culling(input).any() &&
-													  input.view.rounds == 1 && !usesMesh(input);
+													  input.view.rounds == 1 && !usesMesh(input) && !kSharesStructures.holds(input);
 										   },
-											"no rays are traced, or through clusters, something is tessellated, culled or drawn in rounds, or mesh "
-											"shaders draw",
+											"no rays are traced, or through clusters, something is tessellated, culled or drawn in rounds, mesh "
+											"shaders draw, or instances share structures",
 											nullptr, kTracesNothing };
 inline constexpr Condition kPrimitiveId = { [](const PlanInput& input) { return input.device.fragment_primitive_id; },
 											"the device lacks primitive ids in fragment shaders (geometryShader) or 32-bit indices" };

@@ -42,6 +42,7 @@ std::vector<Feature> shaderFeatures(const PlanInput& input)
 		{ "HAS_OCCLUSION", 23, &kMayHide },
 		{ "HAS_RAYS", 24, &kRays },
 		{ "KEEPS_PLACES", 27, &kKeepsPlaces },
+		{ "SHARES_STRUCTURES", 55, &kSharesStructures },
 		{ "BUILDS_CLUSTERS", 50, &kClusters },
 		{ "HAS_TRANSIENT_UNITS", 51, &kTransientUnits },
 		{ "HAS_TRANSIENT_GROUPS", 52, &kTransientGroups },

@@ -55,6 +55,7 @@ struct DeviceTraits
 	float most_small_rate_px = 0;       // up to this rate small triangles have a kernel of their own
 	bool rays = false;                  // acceleration structures and ray tracing pipelines
 	// What the driver asks for, about: for structures per triangle and per instance, and for scratch memory per triangle.
+	uint64_t most_structure_triangles = 0, most_structure_instances = 0;
 	double structure_triangle_bytes = 0, structure_instance_bytes = 0, structure_scratch_bytes = 0;
 	// Those structures can be built from clusters and templates, or why not.
 	bool clusters = false;
@@ -69,6 +70,8 @@ struct ViewTraits
 	double rate_px = 0;              // granted rate
 	bool looks_for_hidden = true;    // false: the last frames hid too little to pay for the passes that look for it
 	bool is_seen_elsewhere = false;  // from another camera than it is culled for: then nothing is looked for
+	bool shares_structures = false;  // some instance's rays can go through a structure of its mesh (scene/ray_sharing.h)
+	bool makes_structures = false;   // such a structure is not made yet
 	uint32_t rounds = 1;             // a frame in more than one round draws its clusters in turns (C2)
 };
 

@@ -94,6 +94,7 @@ struct RenderOptions
 	float ray_falloff = 4;          // how fast segments grow outside the view where only rays of light meet them; 0: not at all
 	bool ray_hidden = true;         // and so, over some frames, on instances that something hides
 	RayPath ray_path = RayPath::Auto;
+	bool ray_sharing = true;  // untessellated instances of a mesh are traced through one structure of it
 	// Where rays' structures are built from clusters:
 	bool transient_units = true;   // triangles of factor 1 in mixed clusters are built together, else each as its pattern
 	bool transient_groups = true;  // so are triangles of factors up to 2

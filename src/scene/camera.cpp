@@ -271,7 +271,7 @@ vec3 reachOf(const Instance& instance, const DisplacedBounds& bounds)
 
 }  // namespace
 
-InstanceRecord instanceRecord(const Instance& instance, const DisplacedBounds& bounds)
+InstanceRecord placementRecord(const Instance& instance)
 {
 	const dmat4& world = instance.world;
 	const dvec3 translation = dvec3(world[3]);
@@ -281,9 +281,15 @@ InstanceRecord instanceRecord(const Instance& instance, const DisplacedBounds& b
 	record.row2 = vec3(world[0].z, world[1].z, world[2].z);
 	record.translation_high = highPart(translation);
 	record.translation_low = lowPart(translation);
+	return record;
+}
+
+InstanceRecord instanceRecord(const Instance& instance, const DisplacedBounds& bounds)
+{
+	InstanceRecord record = placementRecord(instance);
 	record.inverse_scale_squared = static_cast<float>(inverseScaleSquared(instance));
 	record.mesh = instance.mesh;
-	record.mirrored = glm::determinant(dmat3(world)) < 0 ? 1 : 0;
+	record.mirrored = glm::determinant(dmat3(instance.world)) < 0 ? 1 : 0;
 	record.reach = reachOf(instance, bounds);
 	return record;
 }

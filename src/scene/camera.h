@@ -60,6 +60,9 @@ float rateOverFocalSquared(const Camera& camera, uint32_t height_px, double rate
 // 1 / (world units per mesh unit)^2, the mean over the axes, as mip levels are found with; 0 for an instance without extent.
 double inverseScaleSquared(const Instance& instance);
 
+// An instance's matrix as shaders place by it; all else of the record is 0.
+InstanceRecord placementRecord(const Instance& instance);
+
 // `bounds`: of the instance's mesh.
 InstanceRecord instanceRecord(const Instance& instance, const DisplacedBounds& bounds);
 

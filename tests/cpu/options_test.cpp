@@ -90,6 +90,7 @@ const std::vector<std::pair<std::string, std::string>> kSamples = {
 	{ "ao-radius", "0.25" },
 	{ "ray-falloff", "2.5" },
 	{ "ray-hidden", "off" },
+	{ "ray-sharing", "off" },
 	{ "rays", "khr" },
 	{ "transient-1x1x1", "off" },
 	{ "transient-2x2x2", "off" },

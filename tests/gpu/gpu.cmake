@@ -13,8 +13,8 @@ foreach(name IN ITEMS clock_load_test force_test list_end_test metric_test occlu
 endforeach()
 
 # Rays against the compute rasteriser by the check of `tessera verify`, and light against closed forms.
-foreach(name IN ITEMS primary_test light_test falloff_test hidden_test)
-  add_executable(gpu_ray_${name} ${here}/raytracing/${name}.cpp)
+foreach(name IN ITEMS primary_test light_test falloff_test hidden_test sharing_test)
+  add_executable(gpu_ray_${name} ${here}/raytracing/${name}.cpp ${here}/raytracing/ray_frames.cpp)
   target_link_libraries(gpu_ray_${name} PRIVATE gpu_test_base tessera_verify)
   add_dependencies(gpu_ray_${name} tessera_shaders)
   gtest_discover_tests(gpu_ray_${name} PROPERTIES LABELS gpu)

@@ -18,6 +18,9 @@ static constexpr Use kUses[] = {
 	{ "counts", Access::ComputeWrite },
 	{ "visible_clusters", Access::ComputeWrite },
 	{ "full_clusters", Access::ComputeWrite, &kDoesNotTessellate },
+	{ "meshes", Access::ComputeRead, &kRtShares },
+	{ "shared_instances", Access::ComputeRead, &kSharesStructures },
+	{ "shared_clusters", Access::ComputeWrite, &kRtShares },
 };
 
 static void record(PassContext& pass)
@@ -31,6 +34,9 @@ static void record(PassContext& pass)
 	args.cluster_groups = pass.address("cluster_groups");
 	args.visible_clusters = pass.address("visible_clusters");
 	args.full_clusters = pass.address("full_clusters");
+	args.meshes = pass.address("meshes");
+	args.shared_instances = pass.address("shared_instances");
+	args.shared_clusters = pass.address("shared_clusters");
 	args.cull_frustum = culling(pass.input()).frustum ? 1 : 0;
 	args.cull_backface = culling(pass.input()).backface ? 1 : 0;
 	args.emit_full = kDoesNotTessellate.holds(pass.input()) ? 1 : 0;

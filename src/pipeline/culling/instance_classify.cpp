@@ -1,5 +1,6 @@
 #include "culling/instance_classify.h"
 
+#include "frame/shared_structures.h"
 #include "pipeline/passes.h"
 #include "pipeline/uses.h"
 
@@ -7,9 +8,15 @@ namespace tessera
 {
 
 static constexpr Use kUses[] = {
-	{ "view", Access::ComputeRead },   { "instances", Access::ComputeRead },
-	{ "meshes", Access::ComputeRead }, { "mesh_bounds", Access::ComputeRead, &kFrustumCulls },
-	{ "heads", Access::ComputeWrite }, { "cluster_groups", Access::ComputeWrite },
+	{ "view", Access::ComputeRead },
+	{ "instances", Access::ComputeRead },
+	{ "meshes", Access::ComputeRead },
+	{ "mesh_bounds", Access::ComputeRead, &kBoundsMeshes },
+	{ "heads", Access::ComputeWrite },
+	{ "cluster_groups", Access::ComputeWrite },
+	{ "counts", Access::ComputeWrite, &kSharesStructures },
+	{ "mesh_addresses", Access::ComputeRead, &kSharesStructures },
+	{ "shared_instances", Access::ComputeWrite, &kSharesStructures },
 };
 
 static void record(PassContext& pass)
@@ -20,6 +27,14 @@ static void record(PassContext& pass)
 	args.mesh_bounds = pass.address("mesh_bounds");
 	args.heads = pass.address("heads");
 	args.cluster_groups = pass.address("cluster_groups");
+	args.cull_frustum = kFrustumCulls.holds(pass.input()) ? 1 : 0;
+	if (kSharesStructures.holds(pass.input()))
+	{
+		args.counts = pass.address("counts");
+		args.shared_instances = pass.address("shared_instances");
+		args.mesh_structures = pass.sharedStructures().addresses();
+		args.sharing = pass.raySharing();
+	}
 	args.instance_count = static_cast<uint32_t>(pass.input().sizes.instances);
 	args.round = pass.round();
 	args.round_count = pass.input().view.rounds;

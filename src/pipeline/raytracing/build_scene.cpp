@@ -5,10 +5,8 @@ namespace tessera
 {
 
 static constexpr Use kUses[] = {
-	{ "ray_instances", Access::BuildRead },
-	{ "ray_geometry", Access::BuildRead },
-	{ "ray_scene", Access::BuildWrite },
-	{ "ray_scratch", Access::BuildWrite },
+	{ "ray_instances", Access::BuildRead }, { "ray_geometry", Access::BuildRead }, { "mesh_structures", Access::BuildRead, &kSharesStructures },
+	{ "ray_scene", Access::BuildWrite },    { "ray_scratch", Access::BuildWrite },
 };
 
 static void record(PassContext& pass)

@@ -1,31 +1,39 @@
 #include "raytracing/place_instances.h"
 
 #include "frame/ray_clusters.h"
+#include "frame/shared_structures.h"
 #include "pipeline/passes.h"
 #include "pipeline/uses.h"
+
+#include <algorithm>
 
 namespace tessera
 {
 
 static constexpr Use kUses[] = {
-	{ "instances", Access::ComputeRead, &kClusters },
-	{ "instance_clusters", Access::ComputeRead, &kClusters },
-	{ "ray_references", Access::ComputeRead, &kClusters },
-	{ "cluster_counts", Access::ComputeWrite, &kClusters },
-	{ "ray_instances", Access::ComputeWrite },
+	{ "instances", Access::ComputeRead, &kPlacesInstances },         { "view", Access::ComputeRead, &kSharesStructures },
+	{ "shared_instances", Access::ComputeRead, &kSharesStructures }, { "mesh_addresses", Access::ComputeRead, &kSharesStructures },
+	{ "instance_clusters", Access::ComputeRead, &kClusters },        { "ray_references", Access::ComputeRead, &kClusters },
+	{ "cluster_counts", Access::ComputeWrite, &kClusters },          { "ray_instances", Access::ComputeWrite },
 };
 
 static void record(PassContext& pass)
 {
 	PlaceInstancesArgs args = {};
 	args.instances = pass.address("ray_instances");
+	args.scene_instances = pass.address("instances");
 	if (!kClusters.holds(pass.input()))
 	{
 		args.geometry = pass.tracedGeometry();
-		pass.dispatch(args, 1);
+		if (kSharesStructures.holds(pass.input()))
+		{
+			args.shared_instances = pass.address("shared_instances");
+			args.mesh_structures = pass.sharedStructures().addresses();
+			args.scene_instance_count = static_cast<uint32_t>(pass.input().sizes.instances);
+		}
+		pass.dispatchLoop(args, std::max(args.scene_instance_count, 1u), kThreadsOfAnyGroup);
 		return;
 	}
-	args.scene_instances = pass.address("instances");
 	args.work = pass.clusters().work();
 	pass.dispatchLoop(args, pass.clusters().sceneInstances(), kThreadsOfAnyGroup);
 }

@@ -3,15 +3,17 @@
 
 #include "pipeline/passes.h"
 #include "pipeline/uses.h"
+#include "shared/ray_sharing.h"
 
 #include <cmath>
 
 namespace tessera
 {
 
-static constexpr std::array<Use, 5> kTracedUses = { {
+static constexpr std::array<Use, 6> kTracedUses = { {
 	{ "ray_scene", Access::RayRead },
 	{ "ray_geometry", Access::RayRead },
+	{ "mesh_structures", Access::RayRead, &kSharesStructures },
 	{ "visibility_depth", Access::RayRead, &kDraws },
 	{ "visibility_payload", Access::RayRead, &kDraws },
 	{ "visibility_buffer", Access::RayRead, &kBuffered },
@@ -34,7 +36,7 @@ static TraceLightArgs argsFor(const PassContext& pass, std::string_view light)
 	args.inputs = rasterInputs(pass);
 	args.visibility = pass.address("visibility_buffer");
 	args.light = pass.address(light);
-	args.more_offset = offsetOfTruncation(pass.input());
+	args.more_offset = offsetOfTruncation(pass.input()) + (kSharesStructures.holds(pass.input()) ? LIGHT_SHARING_OFFSET : 0);
 	return args;
 }
 

@@ -8,11 +8,16 @@
 namespace tessera
 {
 
-static constexpr std::array<Use, 8> kTracedUses = { {
+static constexpr std::array<Use, 13> kTracedUses = { {
 	{ "view", Access::RayRead },
 	{ "ray_scene", Access::RayRead },
 	{ "ray_geometry", Access::RayRead },
-	{ "clusters", Access::RayRead, &kRtMixedSides },
+	{ "mesh_structures", Access::RayRead, &kRtShares },
+	{ "instances", Access::RayRead, &kRtShares },
+	{ "meshes", Access::RayRead, &kRtShares },
+	{ "shared_instances", Access::RayRead, &kRtShares },
+	{ "shared_clusters", Access::RayRead, &kRtShares },
+	{ "clusters", Access::RayRead, &kRtFindsClusters },
 	{ "visible_clusters", Access::RayRead, &kRtMixedSides },
 	{ "part_triangles", Access::RayRead, &kRtMixedSidesOfParts },
 	{ "material_flags", Access::RayRead, &kRtMixedSides },
@@ -29,6 +34,10 @@ static TraceVisibilityArgs argsFor(const PassContext& pass)
 	args.inputs.visible_clusters = pass.address("visible_clusters");
 	args.inputs.part_triangles = pass.address("part_triangles");
 	args.inputs.material_flags = pass.address("material_flags");
+	args.inputs.instances = pass.address("instances");
+	args.meshes = pass.address("meshes");
+	args.shared_instances = pass.address("shared_instances");
+	args.shared_clusters = pass.address("shared_clusters");
 	args.visibility = pass.address("visibility_buffer");
 	return args;
 }

@@ -25,6 +25,7 @@ static constexpr Use kUses[] = {
 	{ "full_clusters", Access::ComputeWrite },
 	{ "split_triangles", Access::ComputeWrite, &kSplits },
 	{ "part_triangles", Access::ComputeWrite },
+	{ "shared_instances", Access::ComputeRead, &kSharesStructures },
 };
 
 static void record(PassContext& pass)
@@ -41,6 +42,7 @@ static void record(PassContext& pass)
 	args.full_clusters = pass.address("full_clusters");
 	args.split_triangles = pass.address("split_triangles");
 	args.part_triangles = pass.address("part_triangles");
+	args.shared_instances = pass.address("shared_instances");
 	args.rule = pass.factorRule();
 	args.cull_frustum = culling(pass.input()).frustum ? 1 : 0;
 	pass.dispatchLoop(args, pass.capacity("visible_clusters"));

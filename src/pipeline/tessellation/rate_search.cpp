@@ -31,6 +31,7 @@ static constexpr Use kUses[] = {
 	{ "full_clusters", Access::ComputeWrite },
 	{ "split_triangles", Access::ComputeWrite, &kSplits },
 	{ "part_triangles", Access::ComputeWrite },
+	{ "shared_instances", Access::ComputeRead, &kSharesStructures },
 };
 
 constexpr uint64_t kMostWorkgroups = 1024;
@@ -56,10 +57,9 @@ static void record(PassContext& pass)
 	args.table = tableView(pass);
 	args.steps = pass.address("rate_steps");
 	args.view = pass.address("view");
+	args.shared_instances = pass.address("shared_instances");
 	args.step_count = pass.rateStepCount();
-	args.lists = pass.repeat();
-	args.deciding_lists = pass.decidingLists();
-	args.split_levels = splitLevels(pass.input());
+	args.modes = packSearch(pass.repeat(), pass.decidingLists(), splitLevels(pass.input()));
 	// Few visible clusters can keep many workgroups busy: each at its own candidate. No more than that, since they mostly just end.
 	pass.dispatchLoop(args, std::min<uint64_t>(kMostWorkgroups, uint64_t(pass.capacity("visible_clusters")) * args.step_count));
 }

@@ -16,6 +16,7 @@ constexpr std::string_view kOptions[] = { "view",
 										  "ray-falloff",
 										  "ray-hidden",
 										  "rays",
+										  "ray-sharing",
 										  "transient-1x1x1",
 										  "transient-2x2x2",
 										  "transient-build",
@@ -28,8 +29,8 @@ void draw(Ui& ui, Session& session)
 	ui.option("view", session.options);
 	ui.option("wireframe", session.options);
 	ui.option("shading", session.options);
-	for (const char* option : { "shadows", "ao", "ao-radius", "ray-falloff", "ray-hidden", "rays", "transient-1x1x1", "transient-2x2x2",
-								"transient-build", "position-truncation", "max-cluster-data", "max-cluster-vertices" })
+	for (const char* option : { "shadows", "ao", "ao-radius", "ray-falloff", "ray-hidden", "rays", "ray-sharing", "transient-1x1x1",
+								"transient-2x2x2", "transient-build", "position-truncation", "max-cluster-data", "max-cluster-vertices" })
 		ui.option(option, session.options);
 	const ViewMode view = session.options.view;
 	const char* scale = view == ViewMode::Factors ? "1 (blue) to 11 (red) segments"

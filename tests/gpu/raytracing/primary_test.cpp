@@ -1,12 +1,6 @@
 // Rays through pixels' centres see what the compute rasteriser sees; what they are traced through follows the demand.
+#include "ray_frames.h"
 #include "ray_test.h"
-
-#include "verify/cameras.h"
-#include "verify/frame_source.h"
-#include "verify/paths_check.h"
-#include "verify/screen.h"
-
-#include "pipeline/passes.h"
 
 namespace tessera::test
 {
@@ -15,81 +9,6 @@ namespace
 {
 
 using rays = RayTest;
-
-std::unique_ptr<verify::FrameSource> sourceOf(const GpuScene& scene, const RenderOptions& options, bool with_micro)
-{
-	auto source = verify::FrameSource::create(gpu(), scene.host, scene.built, scene.table, options, with_micro, {}, 1);
-	EXPECT_TRUE(source) << (source ? "" : source.error().message);
-	return source ? std::move(*source) : nullptr;
-}
-
-verify::Capture captured(verify::FrameSource& source, const Camera& camera, float rate)
-{
-	auto capture = source.capture(camera, rate);
-	EXPECT_TRUE(capture) << (capture ? "" : capture.error().message);
-	return capture ? std::move(*capture) : verify::Capture();
-}
-
-std::unique_ptr<Renderer> rendererOf(const GpuScene& scene, const RenderOptions& options)
-{
-	auto renderer = Renderer::create(gpu(), scene.built, scene.table, framePasses(), options);
-	EXPECT_TRUE(renderer) << (renderer ? "" : renderer.error().message);
-	return renderer ? std::move(*renderer) : nullptr;
-}
-
-struct Drawn
-{
-	FrameResult result;
-	std::vector<uint8_t> picture;
-};
-
-Drawn drawnBy(Renderer& renderer, const Camera& camera)
-{
-	Drawn drawn;
-	auto result = renderer.renderFrame(camera);
-	auto picture = renderer.readPicture();
-	EXPECT_TRUE(result && picture) << (result ? "" : result.error().message);
-	if (result && picture)
-		drawn = { std::move(*result), std::move(*picture) };
-	return drawn;
-}
-
-const ListStats& listOf(const FrameResult& result, std::string_view name)
-{
-	static const ListStats kNone;
-	const auto found = std::find_if(result.lists.begin(), result.lists.end(), [&](const ListStats& list) { return list.name == name; });
-	EXPECT_NE(found, result.lists.end()) << name;
-	return found == result.lists.end() ? kNone : *found;
-}
-
-// From all cameras, rays may differ from the compute rasteriser only at edges.
-void expectSameVisibility(const GpuScene& scene, const std::string& name, float rate, const std::vector<verify::NamedCamera>& cameras)
-{
-	const auto soft = sourceOf(scene, rayOptions(rate, Raster::Soft), true), rt = sourceOf(scene, rayOptions(rate, Raster::Rt), false);
-	ASSERT_TRUE(soft && rt) << name;
-	uint64_t covered = 0, differ = 0;
-	for (const verify::NamedCamera& camera : cameras)
-	{
-		const std::string what = fmt::format("{} at rate {}, camera {}", name, rate, camera.name);
-		const verify::Capture expected = captured(*soft, camera.camera, rate), found = captured(*rt, camera.camera, rate);
-		verify::CheckResult check =
-			verify::checkPaths(verify::Screen(scene.host, expected.view), expected.micro, expected.visible, found.visible, "rt");
-		EXPECT_EQ(check.violations, 0u) << what << ": " << verify::describe(check.place);
-		EXPECT_EQ(expected.result.counts.micro_triangles, found.result.counts.micro_triangles) << what;
-		covered += expected.visible.covered();
-		differ += check.sums["pixels that differ"];
-	}
-	EXPECT_GT(covered, cameras.size() * 96 * 54 / 20) << name << ": too little is seen";
-	EXPECT_LE(differ * 50, covered) << name;
-}
-
-// The scene's camera and random ones: far, close, within, grazing, narrow and wide.
-std::vector<verify::NamedCamera> camerasOf(const GpuScene& scene, uint64_t seed, uint32_t count)
-{
-	std::vector<verify::NamedCamera> cameras = verify::randomCameras(scene.built, seed, count);
-	cameras.push_back({ "its own", scene.camera });
-	return cameras;
-}
 
 }  // namespace
 
