@@ -10,7 +10,7 @@ namespace tessera::test
 
 TEST(framePlan, everyAccessOfRaysIsOrderedToo)
 {
-	for (uint32_t i = 0; i < 1024; ++i)
+	for (uint32_t i = 0; i < 4096; ++i)
 	{
 		const auto bit = [&](uint32_t b) {
 			return (i >> b & 1u) != 0;
@@ -27,6 +27,9 @@ TEST(framePlan, everyAccessOfRaysIsOrderedToo)
 		input.options.view = bit(7) ? ViewMode::Shaded : ViewMode::Clusters;
 		input.device.clusters = bit(8);
 		input.options.transient_units = input.options.transient_groups = bit(9);
+		input.device.most_structure_instances = 1000;
+		input.view.shares_structures = bit(10);
+		input.view.makes_structures = bit(11);
 		const FramePlan plan = planOf(input);
 		ASSERT_TRUE(plan.everyReadHasAnEarlierWriteAndABarrier(input)) << i;
 		ASSERT_TRUE(everyConflictIsOrdered(plan, input)) << i;

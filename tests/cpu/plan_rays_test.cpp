@@ -88,6 +88,55 @@ TEST(framePlan, whatIsHiddenFallsOffOnlyWhereItCanBeMeasured)
 	EXPECT_TRUE(featureOn(planOf(elsewhere), "HAS_HIDDEN_FALLOFF") && planOf(elsewhere).keeps("hidden_instances"));
 }
 
+// Only where an instance may share from here; made in the frame that first needs it.
+TEST(framePlan, structuresAreSharedWhereAnInstanceMayAndMadeOnce)
+{
+	constexpr std::string_view kShared[] = { "shared_instances", "shared_clusters", "mesh_addresses", "mesh_inputs", "mesh_structures" };
+	PlanInput input = fullInput();
+	input.device.rays = true;
+	input.device.most_structure_instances = 1000;
+	input.options.raster = Raster::Rt;
+	const auto expectNone = [&](const PlanInput& none, const char* what) {
+		const FramePlan plan = planOf(none);
+		expectDropped(plan, { "expand_meshes", "build_meshes" });
+		EXPECT_FALSE(featureOn(plan, "SHARES_STRUCTURES")) << what;
+		for (std::string_view resource : kShared)
+			EXPECT_FALSE(plan.keeps(resource)) << what << ": " << resource;
+	};
+	expectNone(input, "no instance may");
+	input.view.shares_structures = input.view.makes_structures = true;
+	const FramePlan first = planOf(input);
+	EXPECT_TRUE(first.has("expand_meshes") && first.has("build_meshes") && featureOn(first, "SHARES_STRUCTURES"));
+	for (std::string_view resource : kShared)
+		EXPECT_TRUE(first.keeps(resource)) << resource;
+	input.view.makes_structures = false;
+	const FramePlan second = planOf(input);
+	expectDropped(second, { "expand_meshes", "build_meshes" });
+	EXPECT_TRUE(featureOn(second, "SHARES_STRUCTURES"));
+	EXPECT_FALSE(second.keeps("mesh_inputs"));
+	EXPECT_FALSE(featureOn(second, "KEEPS_PLACES"));
+
+	PlanInput off = input, rounds = input, elsewhere = input, indexed = input, clusters = input, many = input, shadows = input;
+	off.options.ray_sharing = false;
+	expectNone(off, "--ray-sharing off");
+	rounds.view.rounds = 2;
+	expectNone(rounds, "rounds");
+	elsewhere.view.is_seen_elsewhere = true;
+	expectNone(elsewhere, "seen from another camera");
+	indexed.options.raster = Raster::Indexed;
+	indexed.options.shadows = true;
+	expectNone(indexed, "drawn by indices");
+	clusters.device.clusters = true;
+	expectNone(clusters, "through clusters");
+	many.sizes.instances = 1000;
+	expectNone(many, "more instances than a scene of rays holds, with the frame's own");
+	shadows.options.raster = Raster::Soft;
+	shadows.options.shadows = shadows.device.buffer_atomics_64 = true;
+	const FramePlan light = planOf(shadows);
+	EXPECT_TRUE(light.keeps("shared_instances") && light.keeps("mesh_structures"));
+	EXPECT_FALSE(light.keeps("shared_clusters")) << "no primary ray asks what it met";
+}
+
 TEST(framePlan, raysFindVisibilityInPlaceOfRasterisers)
 {
 	PlanInput input = fullInput();

@@ -72,7 +72,8 @@ TEST_F(rays, aReservationThatIsTooSmallIsMadeLargerInTheSameFrameAndNothingIsMis
 TEST_F(rays, refitsWhileNothingIsTessellatedAndBuildsWhenTheTopologyChanges)
 {
 	const auto scene = gpuScene("bricks");
-	const RenderOptions options = rayOptions(0, Raster::Rt);
+	RenderOptions options = rayOptions(0, Raster::Rt);
+	options.ray_sharing = false;
 	const auto renderer = rendererOf(*scene, options);
 	ASSERT_TRUE(renderer);
 	drawnBy(*renderer, scene->camera);
