@@ -116,7 +116,8 @@ void RayStructures::reserve(const PlanInput& input)
 		return;
 	}
 	if (reserved_ == 0)
-		reserved_ = roundedUp(std::min<uint64_t>(input.scene.instanced_triangles, kFirstTriangles));
+		reserved_ = roundedUp(
+			std::min<uint64_t>(kMakesStructures.holds(input) ? input.view.own_triangles : input.scene.instanced_triangles, kFirstTriangles));
 	// Nearly full: a moving camera seldom draws a frame twice. Half empty: what is not there costs a little, too.
 	const bool is_small = uint64_t(wanted) * 16 > uint64_t(reserved_) * 15, is_large = wanted < reserved_ / 2;
 	// With shared structures a frame may have no triangles of its own.

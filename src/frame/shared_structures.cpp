@@ -43,27 +43,26 @@ uint32_t verticesOf(const BuiltScene& scene, const MeshRecord& mesh)
 	const ClusterRecord& last = lastCluster(scene, mesh);
 	return last.first_vertex + clusterVertices(last) - scene.clusters[mesh.first_cluster].first_vertex;
 }
-uint32_t trianglesOf(const BuiltScene& scene, const MeshRecord& mesh)
+// Meshes whose vertices depend on nothing but options; empty where nothing may share, whatever the view.
+std::vector<uint8_t> meshesThatMayShare(const BuiltScene& scene, const PlanInput& input)
 {
-	const ClusterRecord& last = lastCluster(scene, mesh);
-	return last.first_triangle + clusterTriangles(last) - scene.clusters[mesh.first_cluster].first_triangle;
+	// Bounds know the edges of the metric `edge` alone.
+	if (!mayShareStructures(input) || (kTessellates.holds(input) && input.options.metric != Metric::Edge))
+		return {};
+	std::vector<uint8_t> candidates = movesNothing(input) ? std::vector<uint8_t>(scene.meshes.size(), 1) : undisplacedMeshes(scene);
+	for (size_t mesh = 0; mesh < candidates.size(); ++mesh)
+		if (scene.meshes[mesh].cluster_count == 0 || trianglesOf(scene, scene.meshes[mesh]) > input.device.most_structure_triangles)
+			candidates[mesh] = 0;
+	const bool any = std::ranges::any_of(candidates, [](uint8_t candidate) { return candidate != 0; });
+	return any ? candidates : std::vector<uint8_t>();
 }
 
 }  // namespace
 
 std::vector<uint8_t> meshesThatShare(const BuiltScene& scene, const View& view, const PlanInput& input)
 {
-	const bool tessellates = kTessellates.holds(input);
-	// Bounds know the edges of the metric `edge` alone.
-	if (!mayShareStructures(input) || (tessellates && input.options.metric != Metric::Edge))
-		return {};
-	std::vector<uint8_t> candidates = movesNothing(input) ? std::vector<uint8_t>(scene.meshes.size(), 1) : undisplacedMeshes(scene);
-	for (size_t mesh = 0; mesh < candidates.size(); ++mesh)
-		if (scene.meshes[mesh].cluster_count == 0 || trianglesOf(scene, scene.meshes[mesh]) > input.device.most_structure_triangles)
-			candidates[mesh] = 0;
-	if (std::ranges::none_of(candidates, [](uint8_t candidate) { return candidate != 0; }))
-		return {};
-	return sharingMeshes(scene, view, raySharing(view, tessellates), std::move(candidates));
+	std::vector<uint8_t> candidates = meshesThatMayShare(scene, input);
+	return candidates.empty() ? candidates : sharingMeshes(scene, view, raySharing(view, kTessellates.holds(input)), std::move(candidates));
 }
 
 SharedStructures::~SharedStructures()
@@ -95,6 +94,9 @@ void SharedStructures::look(const View& view, PlanInput& input)
 			missing_.push_back(mesh);
 	input.view.shares_structures = std::ranges::any_of(sharing, [](uint8_t shares) { return shares != 0; });
 	input.view.makes_structures = !missing_.empty();
+	input.view.own_triangles = 0;
+	if (!missing_.empty())
+		input.view.own_triangles = trianglesNotShared(scene_, view, raySharing(view, kTessellates.holds(input)), meshesThatMayShare(scene_, input));
 }
 
 Status SharedStructures::prepare(const FramePlan& plan, const PlanInput& input, CommandRecorder& commands)

@@ -72,6 +72,7 @@ struct ViewTraits
 	bool is_seen_elsewhere = false;  // from another camera than it is culled for: then nothing is looked for
 	bool shares_structures = false;  // some instance's rays can go through a structure of its mesh (scene/ray_sharing.h)
 	bool makes_structures = false;   // such a structure is not made yet
+	uint64_t own_triangles = 0;      // then: base triangles of instances that do not share
 	uint32_t rounds = 1;             // a frame in more than one round draws its clusters in turns (C2)
 };
 

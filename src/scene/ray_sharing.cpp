@@ -8,6 +8,16 @@
 namespace tessera
 {
 
+namespace
+{
+
+bool sharesFrom(const BuiltScene& scene, const Instance& instance, const View& view, const RaySharing& sharing)
+{
+	return mayShare(scene.mesh_bounds[instance.mesh], placementOf(placementRecord(instance), view), sharing, view);
+}
+
+}  // namespace
+
 RaySharing raySharing(const View& view, bool tessellates)
 {
 	RaySharing sharing = {};
@@ -48,13 +58,29 @@ std::vector<uint8_t> sharingMeshes(const BuiltScene& scene, const View& view, co
 	{
 		if (!candidates[instance.mesh])
 			continue;
-		const DisplacedBounds& bounds = scene.mesh_bounds[instance.mesh];
-		if (!mayShare(bounds, placementOf(placementRecord(instance), view), sharing, view))
+		if (!sharesFrom(scene, instance, view, sharing))
 			continue;
 		found[instance.mesh] = 1;
 		candidates[instance.mesh] = 0;
 	}
 	return found;
+}
+
+uint64_t trianglesNotShared(const BuiltScene& scene, const View& view, const RaySharing& sharing, const std::vector<uint8_t>& candidates)
+{
+	uint64_t triangles = 0;
+	for (const Instance& instance : scene.instances)
+		if (!candidates[instance.mesh] || !sharesFrom(scene, instance, view, sharing))
+			triangles += trianglesOf(scene, scene.meshes[instance.mesh]);
+	return triangles;
+}
+
+uint32_t trianglesOf(const BuiltScene& scene, const MeshRecord& mesh)
+{
+	if (mesh.cluster_count == 0)
+		return 0;
+	const ClusterRecord& last = scene.clusters[mesh.first_cluster + mesh.cluster_count - 1];
+	return last.first_triangle + clusterTriangles(last) - scene.clusters[mesh.first_cluster].first_triangle;
 }
 
 }  // namespace tessera

@@ -16,4 +16,10 @@ std::vector<uint8_t> undisplacedMeshes(const BuiltScene& scene);
 // meshes that are found already are not looked at. Linear in the instances.
 std::vector<uint8_t> sharingMeshes(const BuiltScene& scene, const View& view, const RaySharing& sharing, std::vector<uint8_t> candidates);
 
+// Base triangles of all instances that do not share in this view, of those meshes. Linear in the instances.
+uint64_t trianglesNotShared(const BuiltScene& scene, const View& view, const RaySharing& sharing, const std::vector<uint8_t>& candidates);
+
+// Triangles of a mesh; its clusters lie one after another, and so do their triangles.
+uint32_t trianglesOf(const BuiltScene& scene, const MeshRecord& mesh);
+
 }  // namespace tessera

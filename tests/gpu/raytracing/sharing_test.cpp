@@ -156,17 +156,16 @@ TEST_F(sharing, lightIsTheSameWithEveryRasteriser)
 {
 	const GpuScene balls(ballsScene(6));
 	const Camera camera = squareCamera(dvec3(4, 3, 7), dvec3(6, 0, -1));
-	for (const Raster raster : { Raster::Soft, Raster::Rt, Raster::Mesh })
-		for (const float rate : { 0.0f, 14.0f })
-		{
-			RenderOptions options = rayOptions(rate, raster);
-			if (raster == Raster::Mesh && !gpu().gates.mesh_shader)
-				continue;
-			options.shadows = true;
-			options.ao_samples = 2;
-			const Difference difference = comparePictures(balls, options, camera, 1);
-			EXPECT_LE(difference.pixels * 50, difference.covered) << "--raster " << rasterName(raster) << " at rate " << rate;
-		}
+	for (const auto& [raster, rate] : { std::pair(Raster::Soft, 14.0f), std::pair(Raster::Rt, 14.0f), std::pair(Raster::Mesh, 0.0f) })
+	{
+		if (raster == Raster::Mesh && !gpu().gates.mesh_shader)
+			continue;
+		RenderOptions options = rayOptions(rate, raster);
+		options.shadows = true;
+		options.ao_samples = 2;
+		const Difference difference = comparePictures(balls, options, camera, 1);
+		EXPECT_LE(difference.pixels * 50, difference.covered) << "--raster " << rasterName(raster) << " at rate " << rate;
+	}
 	RenderOptions indexed = rayOptions(0, Raster::Indexed);
 	indexed.shadows = true;
 	EXPECT_EQ(drawnBy(*rendererOf(balls, indexed), camera).result.rays.shared_instances, 0u);
