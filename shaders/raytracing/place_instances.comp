@@ -2,9 +2,10 @@
 //
 //   out  ray_instances   RayInstance[]   0: the frame's micro-triangles, which are relative to the eye already
 //   with structures that instances share (SHARES_STRUCTURES), behind it:
-//   in   shared_instances, instances, mesh_structures
-//   out  ray_instances   RayInstance[]   one per instance of the scene, inactive where it does not share. A structure is in its mesh's space, where
-//                                        the driver looks for the side that a triangle shows: mirrored instances are nothing special
+//   in   shared_instances, instances, mesh_structures, counts
+//   out  ray_instances   RayInstance[]   one per instance of the scene, inactive where it does not share, or the lists do not hold the frame.
+//                                        A structure is in its mesh's space, where the driver looks for the side that a triangle shows:
+//                                        mirrored instances are nothing special
 //   with clusters (BUILDS_CLUSTERS):
 //   in   ray_references  the structures' addresses and sizes, from the driver
 //   out  ray_instances   RayInstance[]   one per instance of the scene, inactive where it has no cluster; the same place for all, since vertices
@@ -37,7 +38,8 @@ RayInstance instanceOf(uint64_t structure, uint flags)
 void placeShared(uint index)
 {
 	RayInstance placed_instance = instanceOf(0ul, 0u);
-	if (args.shared_instances.at[index] != NOT_SHARED)
+	// Of an attempt that does not fit nothing is drawn: its clusters may be listed nowhere.
+	if (args.counts.at[0].overflow == 0u && args.shared_instances.at[index] != NOT_SHARED)
 	{
 		InstanceRecord scene_instance = args.scene_instances.at[index];
 		Placement placement = placementOf(scene_instance, frame_view);

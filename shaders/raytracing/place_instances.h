@@ -2,6 +2,7 @@
 #ifndef TESSERA_RAYTRACING_PLACE_INSTANCES_H
 #define TESSERA_RAYTRACING_PLACE_INSTANCES_H
 #include "raytracing/cluster_lists.h"
+#include "shared/lists.h"
 #include "shared/ray_sharing.h"
 #include "shared/view.h"
 
@@ -30,10 +31,11 @@ struct PlaceInstancesArgs
 	GPU_PTR(ClusterWork) work;                // 0 without clusters
 	GPU_PTR(uint) shared_instances;           // this and the next: 0 without shared structures
 	GPU_PTR(uvec2) mesh_structures;           // per mesh, the address of its structure, lower word first
+	GPU_PTR(FrameCounts) counts;              // likewise
 	uint scene_instance_count;
 	uint unused;
 };
-SHARED_LAYOUT(PlaceInstancesArgs, 56, unused, 52)
+SHARED_LAYOUT(PlaceInstancesArgs, 64, unused, 60)
 
 SHARED_END
 

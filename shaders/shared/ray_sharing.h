@@ -1,8 +1,7 @@
 // ray_sharing.h: which instances may be traced through a structure of their mesh in its own space, which all instances of the mesh share, instead of
 // through triangles that are placed and expanded for the frame. The driver then moves rays into that space, which rounds; an instance shares only
 // where that stays far below a pixel and below what light's rays start off the surface. A device that rounds differently may choose differently: both
-// ways lead to the same picture. Derived in docs/numerics.md, "Rays through shared
-// structures".
+// ways lead to the same picture. Derived in docs/numerics.md, "Rays through shared structures".
 #ifndef TESSERA_SHARED_RAY_SHARING_H
 #define TESSERA_SHARED_RAY_SHARING_H
 #include "shared/bounds.h"

@@ -43,6 +43,7 @@ uint32_t verticesOf(const BuiltScene& scene, const MeshRecord& mesh)
 	const ClusterRecord& last = lastCluster(scene, mesh);
 	return last.first_vertex + clusterVertices(last) - scene.clusters[mesh.first_cluster].first_vertex;
 }
+
 // Meshes whose vertices depend on nothing but options; empty where nothing may share, whatever the view.
 std::vector<uint8_t> meshesThatMayShare(const BuiltScene& scene, const PlanInput& input)
 {

@@ -11,10 +11,15 @@ namespace tessera
 {
 
 static constexpr Use kUses[] = {
-	{ "instances", Access::ComputeRead, &kPlacesInstances },         { "view", Access::ComputeRead, &kSharesStructures },
-	{ "shared_instances", Access::ComputeRead, &kSharesStructures }, { "mesh_addresses", Access::ComputeRead, &kSharesStructures },
-	{ "instance_clusters", Access::ComputeRead, &kClusters },        { "ray_references", Access::ComputeRead, &kClusters },
-	{ "cluster_counts", Access::ComputeWrite, &kClusters },          { "ray_instances", Access::ComputeWrite },
+	{ "instances", Access::ComputeRead, &kPlacesInstances },
+	{ "view", Access::ComputeRead, &kSharesStructures },
+	{ "shared_instances", Access::ComputeRead, &kSharesStructures },
+	{ "mesh_addresses", Access::ComputeRead, &kSharesStructures },
+	{ "counts", Access::ComputeRead, &kSharesStructures },
+	{ "instance_clusters", Access::ComputeRead, &kClusters },
+	{ "ray_references", Access::ComputeRead, &kClusters },
+	{ "cluster_counts", Access::ComputeWrite, &kClusters },
+	{ "ray_instances", Access::ComputeWrite },
 };
 
 static void record(PassContext& pass)
@@ -29,6 +34,7 @@ static void record(PassContext& pass)
 		{
 			args.shared_instances = pass.address("shared_instances");
 			args.mesh_structures = pass.sharedStructures().addresses();
+			args.counts = pass.address("counts");
 			args.scene_instance_count = static_cast<uint32_t>(pass.input().sizes.instances);
 		}
 		pass.dispatchLoop(args, std::max(args.scene_instance_count, 1u), kThreadsOfAnyGroup);

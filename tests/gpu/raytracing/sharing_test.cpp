@@ -6,6 +6,7 @@
 #include "verify/frame_source.h"
 
 #include "pipeline/passes.h"
+#include "raytracing/place_instances.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -310,6 +311,27 @@ TEST_F(sharing, aSceneInRoundsIsDrawnWithoutAndTheSame)
 	EXPECT_GT(parts.result.rounds, 1u);
 	EXPECT_EQ(parts.result.rays.shared_instances, 0u);
 	EXPECT_LE(differingPixels(whole.picture, parts.picture, 8) * 100, whole.result.counts.covered_pixels);
+}
+
+// Clusters of an attempt that does not fit may be listed nowhere, so rays must not meet them: nothing is placed.
+TEST_F(sharing, whatDoesNotFitIsNotPlaced)
+{
+	const GpuScene balls(ballsScene(40));
+	const auto placed = [&](std::map<std::string, uint32_t> capacities, bool fits) {
+		RenderOptions options = rayOptions(0, Raster::Soft);
+		options.shadows = true;
+		options.capacities = std::move(capacities);
+		const auto renderer = rendererOf(balls, options);
+		EXPECT_EQ(bool(renderer->renderFrame(balls.camera)), fits) << "light's rays need whole frames";
+		const auto bytes = renderer->readResource("ray_instances");
+		EXPECT_TRUE(bytes);
+		std::vector<RayInstance> instances(bytes->size() / sizeof(RayInstance));
+		std::memcpy(instances.data(), bytes->data(), instances.size() * sizeof(RayInstance));
+		EXPECT_EQ(instances.size(), 41u);
+		return std::count_if(instances.begin() + 1, instances.end(), [](const RayInstance& instance) { return instance.structure != 0; });
+	};
+	EXPECT_GT(placed({}, true), 30);
+	EXPECT_EQ(placed({ { "visible_clusters", 64 } }, false), 0);
 }
 
 }  // namespace tessera::test
